@@ -28,7 +28,7 @@ class Workshop:
         self.verilator = arguments.verilator
         self.root = arguments.root
         self.top = arguments.top
-        self.sources = sorted((self.root / arguments.sources).glob("*.v"))
+        self.sources = sorted(self.root.glob(arguments.sources if "*" in arguments.sources else f"{arguments.sources}/*.v"))
         self.device = self.root / arguments.device
         self.folder = arguments.build
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -70,7 +70,7 @@ def main():
         parser.add_argument(name, required=True, type=pathlib.Path)
     parser.add_argument("--parameter", action="append", default=[], help="NAME=VALUE of the Verilog")
     parser.add_argument("--top", default="pharos_capture", help="the logic's module")
-    parser.add_argument("--sources", default="firmware/rtl", help="its folder")
+    parser.add_argument("--sources", default="firmware/rtl", help="its folder, or the pattern of its files")
     parser.add_argument("--device", default="tests/rtl/verilated_device.cpp.in", help="the bench's view of it")
     parser.add_argument("--mutations", default="mutations", help="the module with the faults")
     parser.add_argument("--few", action="store_true")

@@ -3,6 +3,7 @@
 //
 // Buses: a request is held until a tick without wait; what was read is there in the next tick. A fetch that waits may
 // change its address or be withdrawn. ibus_fault comes with the data, dbus_fault with the tick that takes the request.
+// ibus_next is the address of the next tick, for a memory that looks it up beforehand; ibus_jumps: it does not follow.
 // Reset: synchronous, at least one tick.
 `default_nettype none
 
@@ -14,6 +15,8 @@ module pharos_core #(
     input  wire        reset,
     output wire        ibus_read,
     output wire [31:2] ibus_address,
+    output wire [31:2] ibus_next,
+    output wire        ibus_jumps,
     input  wire        ibus_wait,
     input  wire [31:0] ibus_readdata,
     input  wire        ibus_fault,
@@ -53,11 +56,12 @@ module pharos_core #(
   assign ibus_read = !d_valid || d_moves;
   assign ibus_address = fetch_address;
   wire fetched = ibus_read && !ibus_wait;
+  assign ibus_next = redirect ? redirect_address : fetched ? fetch_address + 30'd1 : fetch_address;
+  assign ibus_jumps = redirect;
 
   always @(posedge clock)
     if (reset) fetch_address <= RESET_ADDRESS[31:2];
-    else if (redirect) fetch_address <= redirect_address;
-    else if (fetched) fetch_address <= fetch_address + 30'd1;
+    else fetch_address <= ibus_next;
 
   // Decode: the bus shows the word for one tick only.
   reg [31:2] d_address;

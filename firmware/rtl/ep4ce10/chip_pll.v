@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The family's PLL, 50 MHz from the board's 50 MHz: a global clock with a known phase, and `locked` for the reset.
+// The family's PLL, 50 MHz from the board's 50 MHz: a global clock with a known phase, and `locked` for the reset. The SDRAM's clock is 3 ns ahead.
 `default_nettype none
 
 module chip_pll (
     input  wire clock_in,
     output wire clock,
+    output wire sdram_clock,
     output wire locked
 );
 
   wire [4:0] clocks;
   assign clock = clocks[0];
+  assign sdram_clock = clocks[1];
 
   altpll #(
       .intended_device_family("Cyclone IV E"),
@@ -23,8 +25,13 @@ module chip_pll (
       .clk0_divide_by(1),
       .clk0_duty_cycle(50),
       .clk0_phase_shift("0"),
+      .clk1_multiply_by(1),
+      .clk1_divide_by(1),
+      .clk1_duty_cycle(50),
+      .clk1_phase_shift("-3000"),  // ps
       .port_inclk0("PORT_USED"),
       .port_clk0("PORT_USED"),
+      .port_clk1("PORT_USED"),
       .port_locked("PORT_USED"),
       .width_clock(5)
   ) pll (
@@ -33,7 +40,7 @@ module chip_pll (
       .locked(locked)
   );
 
-  wire unused = &{1'b0, clocks[4:1]};
+  wire unused = &{1'b0, clocks[4:2]};
 
 endmodule
 `default_nettype wire

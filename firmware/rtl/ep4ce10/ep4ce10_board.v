@@ -12,6 +12,16 @@ module ep4ce10_board (
     output wire        flash_select_n,
     output wire        flash_out,       // to the flash
     input  wire        flash_in,
+    output wire        sdram_clock,
+    output wire        sdram_clock_enable,
+    output wire        sdram_select_n,
+    output wire        sdram_ras_n,
+    output wire        sdram_cas_n,
+    output wire        sdram_we_n,
+    output wire [ 1:0] sdram_bank,
+    output wire [12:0] sdram_address,
+    output wire [ 1:0] sdram_mask,
+    inout  wire [15:0] sdram_data,
     output wire [ 3:0] leds,
     inout  wire [ 7:0] pins             // pin 7 to ground: development jumper
 );
@@ -20,6 +30,7 @@ module ep4ce10_board (
   chip_pll pll (
       .clock_in(clock_50),
       .clock(clock),
+      .sdram_clock(sdram_clock),
       .locked(locked)
   );
 
@@ -29,6 +40,11 @@ module ep4ce10_board (
   always @(posedge clock) waiting <= {waiting[1:0], !ready};
 
   wire [7:0] outputs, driven;
+  wire sdram_drive;
+  wire [15:0] sdram_data_out;
+  assign sdram_clock_enable = 1'b1;
+  assign sdram_select_n = 1'b0;
+  assign sdram_data = sdram_drive ? sdram_data_out : 16'hzzzz;
   wire trace_ends;
   pharos_chip #(
       .INPUTS(12),
@@ -47,6 +63,15 @@ module ep4ce10_board (
       .pin_levels(pins),
       .pin_outputs(outputs),
       .pin_driven(driven),
+      .sdram_ras_n(sdram_ras_n),
+      .sdram_cas_n(sdram_cas_n),
+      .sdram_we_n(sdram_we_n),
+      .sdram_bank(sdram_bank),
+      .sdram_address(sdram_address),
+      .sdram_mask(sdram_mask),
+      .sdram_drive(sdram_drive),
+      .sdram_data_out(sdram_data_out),
+      .sdram_data_in(sdram_data),
       .trace_ends(trace_ends)
   );
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// UART, 8N1, with the registers of a 16550 that the firmware uses, and FIFOs of 128 bytes. The divisor is the length of a
-// bit in 1/16 ticks of the clock:
+// UART, 8N1, with the registers of a 16550 that the firmware uses, and FIFOs of 128 bytes, both in one block of RAM. The divisor is the
+// length of a bit in 1/16 ticks of the clock:
 // 115,200 and 460,800 baud are met to 0.1 % by any clock from 16 MHz on.
 //
 //   0 data (with DLAB: divisor, low)   1 interrupt enable: ignored (with DLAB: divisor, high)   2 FIFO control: ignored
@@ -14,7 +14,7 @@ module soc_uart (
     input  wire        read,
     input  wire        write,
     input  wire [ 7:0] write_data,
-    output reg  [ 7:0] read_data,
+    output wire [ 7:0] read_data,
     input  wire        receive,   // pin
     output wire        transmit   // pin
 );
@@ -34,44 +34,50 @@ module soc_uart (
       if (address == 3'd1 && divisor_access) divisor[15:8] <= write_data;
     end
 
+  // The FIFOs: one port writes, the program's bytes first; one reads, the program's first. Indices have a bit more than an address.
+  reg [7:0] bytes[0:255];
+  reg [7:0] byte_read;
+  reg [7:0] send_in, send_out, receive_in, receive_out;
+  reg [7:0] received;
+  reg arrived;  // what was received is not stored yet
+  wire send_full = send_in == (send_out ^ 8'h80);
+  wire receive_full = receive_in == (receive_out ^ 8'h80);
+  wire send_some = send_in != send_out;
+  wire receive_some = receive_in != receive_out;
+  wire store_sent = write_byte && !send_full;
+  wire store_received = arrived && !write_byte;
+  always @(posedge clock) begin
+    byte_read <= bytes[read_byte ? {1'b1, receive_out[6:0]} : {1'b0, send_out[6:0]}];
+    if (store_sent || (store_received && !receive_full))
+      bytes[write_byte ? {1'b0, send_in[6:0]} : {1'b1, receive_in[6:0]}] <= write_byte ? write_data : received;
+  end
+
   // Transmission: a bit ends when what is left of it is less than a tick.
-  wire [7:0] send_byte;
-  wire [7:0] send_count;
-  wire send_full;
   wire send_next;
   reg [9:0] send_bits;  // stop bit, byte, start bit, from bit 0 on
   reg [3:0] send_left;
   reg [16:0] send_time;
   reg sending;
-  reg queued;  // a byte that the FIFO does not count yet
+  reg send_ready;  // the oldest byte is on byte_read
   wire send_bit_ends = send_time < 17'd32;
-  assign send_next = !sending && send_count != 8'd0;
+  assign send_next = !sending && send_ready;
   assign transmit = !sending || send_bits[0];
-  capture_fifo #(
-      .WIDTH(8),
-      .DEPTH(128)
-  ) send_fifo (
-      .clock(clock),
-      .clear(reset),
-      .write(write_byte),
-      .write_data(write_data),
-      .full(send_full),
-      .pop(send_next),
-      .head(send_byte),
-      .count(send_count)
-  );
   always @(posedge clock)
     if (reset) begin
-      sending   <= 1'b0;
-      send_bits <= 10'h3FF;
-      send_left <= 4'd0;
-      send_time <= 17'd0;
-      queued    <= 1'b0;
+      sending    <= 1'b0;
+      send_bits  <= 10'h3FF;
+      send_left  <= 4'd0;
+      send_time  <= 17'd0;
+      send_in    <= 8'd0;
+      send_out   <= 8'd0;
+      send_ready <= 1'b0;
     end else begin
-      queued <= write_byte;
+      if (store_sent) send_in <= send_in + 8'd1;
+      if (send_next) send_out <= send_out + 8'd1;
+      send_ready <= send_some && !send_next && !read_byte;
       if (send_next) begin
         sending   <= 1'b1;
-        send_bits <= {1'b1, send_byte, 1'b0};
+        send_bits <= {1'b1, byte_read, 1'b0};
         send_left <= 4'd9;
         send_time <= {1'b0, divisor};
       end else if (sending) begin
@@ -90,34 +96,20 @@ module soc_uart (
   reg receiving;
   reg [3:0] receive_left;
   reg [16:0] receive_time;
-  reg [7:0] received;
   reg overrun;
   reg framing;
   wire sample = receiving && receive_time < 17'd32;
   wire stop = sample && receive_left == 4'd0;
-  wire [7:0] receive_byte;
-  wire [7:0] receive_count;
-  wire receive_full;
   always @(posedge clock) line <= {line[1:0], receive};
-  capture_fifo #(
-      .WIDTH(8),
-      .DEPTH(128)
-  ) receive_fifo (
-      .clock(clock),
-      .clear(reset),
-      .write(stop && line[1]),
-      .write_data(received),
-      .full(receive_full),
-      .pop(read_byte),
-      .head(receive_byte),
-      .count(receive_count)
-  );
   always @(posedge clock)
     if (reset) begin
       receiving    <= 1'b0;
       receive_left <= 4'd0;
       receive_time <= 17'd0;
       received     <= 8'd0;
+      arrived      <= 1'b0;
+      receive_in   <= 8'd0;
+      receive_out  <= 8'd0;
       overrun      <= 1'b0;
       framing      <= 1'b0;
     end else begin
@@ -130,26 +122,33 @@ module soc_uart (
         receive_time <= receive_time - 17'd16 + {1'b0, divisor};
         receive_left <= receive_left - 4'd1;
         if (receive_left == 4'd0 || (receive_left == 4'd9 && line[1])) receiving <= 1'b0;  // its end, or no start bit
-        received <= {line[1], received[7:1]};
+        if (!stop) received <= {line[1], received[7:1]};
       end
-      if (stop && line[1] && receive_full) overrun <= 1'b1;
+      if (stop && line[1]) arrived <= 1'b1;
+      else if (store_received) arrived <= 1'b0;
+      if (store_received && !receive_full) receive_in <= receive_in + 8'd1;
+      if (read_byte && receive_some) receive_out <= receive_out + 8'd1;
+      if (store_received && receive_full) overrun <= 1'b1;
       else if (read_status) overrun <= 1'b0;
       if (stop && !line[1]) framing <= 1'b1;
       else if (read_status) framing <= 1'b0;
     end
 
-  wire send_empty = send_count == 8'd0 && !queued && !write_byte;
-  wire [7:0] status = {1'b0, send_empty && !sending, send_empty, 1'b0, framing, 1'b0, overrun, receive_count != 8'd0};
-  always @(posedge clock)
+  wire send_empty = !send_some && !write_byte;
+  wire [7:0] status = {1'b0, send_empty && !sending, send_empty, 1'b0, framing, 1'b0, overrun, receive_some};
+  reg from_fifo;
+  reg [7:0] from_register;
+  assign read_data = from_fifo ? byte_read : from_register;
+  always @(posedge clock) begin
+    from_fifo <= read_byte;
     case (address)
-      3'd0: read_data <= divisor_access ? divisor[7:0] : receive_byte;
-      3'd1: read_data <= divisor_access ? divisor[15:8] : 8'd0;
-      3'd3: read_data <= {divisor_access, 7'd3};
-      3'd5: read_data <= status;
-      default: read_data <= 8'd0;
+      3'd0: from_register <= divisor[7:0];
+      3'd1: from_register <= divisor_access ? divisor[15:8] : 8'd0;
+      3'd3: from_register <= {divisor_access, 7'd3};
+      3'd5: from_register <= status;
+      default: from_register <= 8'd0;
     endcase
-
-  wire unused = &{1'b0, send_full};
+  end
 
 endmodule
 `default_nettype wire

@@ -28,7 +28,11 @@ module up5k_chip #(
 
   wire code_read, code_wait, ram_read;
   wire [3:0] ram_write;
-  wire [16:2] code_address, ram_address;
+  wire [22:2] code_address, ram_address;
+  // There is no memory outside.
+  wire [22:2] code_next;
+  wire external_code_read, code_jumps, external_read;
+  wire [3:0] external_write;
   wire [31:0] code_data, ram_write_data, ram_data;
   wire capture_read, capture_write, capture_wait;
   wire [5:2] capture_address;
@@ -55,6 +59,15 @@ module up5k_chip #(
       .ram_write_data(ram_write_data),
       .ram_wait(1'b0),
       .ram_data(ram_data),
+      .external_code_read(external_code_read),
+      .code_next(code_next),
+      .code_jumps(code_jumps),
+      .external_code_wait(1'b0),
+      .external_code_data(32'd0),
+      .external_read(external_read),
+      .external_write(external_write),
+      .external_wait(1'b0),
+      .external_data(32'd0),
       .capture_read(capture_read),
       .capture_write(capture_write),
       .capture_address(capture_address),
@@ -77,12 +90,12 @@ module up5k_chip #(
   up5k_ram ram (
       .clock(clock),
       .read_a(code_read),
-      .address_a(code_address),
+      .address_a(code_address[16:2]),
       .wait_a(code_wait),
       .data_a(code_data),
       .read_b(ram_read),
       .write_b(ram_write),
-      .address_b(ram_address),
+      .address_b(ram_address[16:2]),
       .write_data_b(ram_write_data),
       .data_b(ram_data)
   );
@@ -102,6 +115,8 @@ module up5k_chip #(
       .bus_wait(capture_wait),
       .bus_readdata(capture_data)
   );
+
+  wire unused = &{1'b0, code_address[22:17], ram_address[22:17], code_next, external_code_read, code_jumps, external_read, external_write};
 
 endmodule
 `default_nettype wire

@@ -15,8 +15,13 @@ module altpll #(
     parameter clk0_divide_by = 1,
     parameter clk0_duty_cycle = 50,
     parameter clk0_phase_shift = "0",
+    parameter clk1_multiply_by = 1,
+    parameter clk1_divide_by = 1,
+    parameter clk1_duty_cycle = 50,
+    parameter clk1_phase_shift = "0",
     parameter port_inclk0 = "",
     parameter port_clk0 = "",
+    parameter port_clk1 = "",
     parameter port_locked = "",
     parameter width_clock = 5
 ) (
@@ -25,7 +30,7 @@ module altpll #(
     output wire                   locked
 );
 
-  assign clk = {{width_clock - 1{1'b0}}, inclk[0]};
+  assign clk = {{width_clock - 2{1'b0}}, {2{inclk[0]}}};
   assign locked = !inclk[1];
 
 endmodule

@@ -27,6 +27,13 @@ void ChipBench::start_in_ram(std::span<const std::uint8_t> program) {
   device_->set_ram(program);
 }
 
+void ChipBench::start_in_sdram(std::span<const std::uint8_t> program) {
+  // lui t0, 0x80800; jr t0
+  constexpr std::array<std::uint8_t, 8> kJump{0xB7, 0x02, 0x80, 0x80, 0x67, 0x80, 0x02, 0x00};
+  device_->set_rom(kJump);
+  sdram_.write(0, program);
+}
+
 void ChipBench::set_light(std::span<const lighthouse::RawPulse> pulses) {
   edges_.clear();
   next_edge_ = 0;
@@ -47,12 +54,18 @@ void ChipBench::tick() {
   inputs_.uart_receive = line_.transmit();
   const ChipOutputs outputs = device_->tick(inputs_);
   inputs_.spi_in = flash_.tick(outputs.spi_select_n, outputs.spi_clock, outputs.spi_out);
+  if (inputs_.power_on_reset) sdram_.restart();
+  if (!inputs_.power_on_reset) inputs_.sdram_data = sdram_.tick(outputs.sdram);
   if (outputs.reset || inputs_.power_on_reset) return;  // its pins may show anything
   if (const auto byte = line_.receive(outputs.uart_transmit)) received_.push_back(*byte);
   if (outputs.changed != 0) note_stamps(outputs);
   if (!outputs.core_ticked) return;
   ++counts_.ticks;
   counts_.instructions += outputs.instruction_ended ? 1 : 0;
+  counts_.external_fetches += outputs.external_fetch ? 1 : 0;
+  counts_.fetch_waits += outputs.fetch_waits ? 1 : 0;
+  counts_.lines_for_code += outputs.line_for_code ? 1 : 0;
+  counts_.accesses_for_data += outputs.access_for_data ? 1 : 0;
   counts_.worst_fill = std::max(counts_.worst_fill, outputs.fifo_fill);
 }
 

@@ -20,6 +20,11 @@ struct ChipCounts {
   std::uint64_t ticks = 0;  // of the core's clock, out of reset
   std::uint64_t instructions = 0;
   std::uint32_t worst_fill = 0;  // records in the capture block
+  // Of the memory outside the chip.
+  std::uint64_t external_fetches = 0;
+  std::uint64_t fetch_waits = 0;  // ticks
+  std::uint64_t lines_for_code = 0;
+  std::uint64_t accesses_for_data = 0;
 };
 
 /// The chip with everything around it: photodiodes, configuration flash, serial line.
@@ -33,11 +38,14 @@ class ChipBench {
   ChipDevice& device() { return *device_; }
   SpiFlashModel& flash() { return flash_; }
   UartLine& line() { return line_; }
+  SdramModel& sdram() { return sdram_; }
 
   /// Power on: memories and counter as set before, everything else reset.
   void power_on();
   /// A ROM that only jumps to the RAM, and the program there: starts without the loader.
   void start_in_ram(std::span<const std::uint8_t> program);
+  /// The same with the program in the SDRAM.
+  void start_in_sdram(std::span<const std::uint8_t> program);
   /// Pulses whose rise and fall the capture block is to stamp at their ticks; those of inputs that it lacks are left
   /// out.
   void set_light(std::span<const lighthouse::RawPulse> pulses);
@@ -64,6 +72,7 @@ class ChipBench {
   std::unique_ptr<ChipDevice> device_;
   SpiFlashModel flash_;
   UartLine line_;
+  SdramModel sdram_;
   ChipInputs inputs_;
   std::vector<PinEdge> edges_;
   std::size_t next_edge_ = 0;

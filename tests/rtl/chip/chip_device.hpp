@@ -5,6 +5,8 @@
 #include <memory>
 #include <span>
 
+#include "rtl/chip/sdram_model.hpp"
+
 namespace pharos::rtl {
 
 /// Pins into the chip.
@@ -13,6 +15,7 @@ struct ChipInputs {
   std::uint32_t photodiodes = 0;
   bool uart_receive = true;
   bool spi_in = true;
+  std::uint16_t sdram_data = 0;
 };
 
 /// Pins out of it, and for measurements: an instruction ended, or the core was in reset.
@@ -22,6 +25,11 @@ struct ChipOutputs {
   bool spi_select_n = true;
   bool spi_out = false;
   bool instruction_ended = false;
+  SdramPins sdram;               // resting where the chip has none
+  bool external_fetch = false;   // an instruction was taken from the cache
+  bool fetch_waits = false;      // for the SDRAM
+  bool line_for_code = false;    // a line began to be read from the SDRAM
+  bool access_for_data = false;  // a line, or a write
   bool reset = false;
   bool core_ticked = true;      // the core's clock rose too
   std::uint32_t fifo_fill = 0;  // records in the capture block

@@ -25,17 +25,20 @@ namespace {
 struct Arguments {
   std::string edges;
   std::string program;
+  std::string external;
   std::string loader;
   std::string image;
   std::string output;
   std::string stamped;
   std::string chip = kChips.front().name;
   double seconds = 1e9;
+  double count_from = 0.0;
 };
 
 /// The program must be ready before the first light; after the last, its frames are still to be sent.
 constexpr std::int64_t kLead_ticks = 10 * kTicksPerSecond / 1000;
-constexpr std::int64_t kLoaderLead_ticks = 4 * kTicksPerSecond / 10;  // copies the image, waits 0.2 s for a host
+constexpr std::int64_t kLoaderLead_ticks = 4 * kTicksPerSecond / 10;  // waits 0.2 s for a host
+constexpr std::int64_t kLoaderLeadOfByte_ticks = 400;                 // copies and hashes the image
 constexpr std::int64_t kTail_ticks = 60 * kTicksPerSecond / 1000;
 
 std::vector<std::uint8_t> bytes_of(const std::string& path) {
@@ -71,6 +74,7 @@ class LineLog {
  public:
   /// Bytes that have arrived until `now_ticks`.
   void add(std::span<const std::uint8_t> bytes, std::int64_t now_ticks) {
+    if (!bytes.empty() && bytes_.empty()) first_ticks_ = now_ticks;
     for (const std::uint8_t byte : bytes) {
       bytes_.push_back(byte);
       const auto frame = decoder_.push(byte);
@@ -92,6 +96,8 @@ class LineLog {
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
   /// Of the seconds that ended while it ran; 0 before the first.
   unsigned worst_busy_permille() const { return worst_busy_permille_; }
+  /// When the first byte had arrived.
+  std::int64_t first_ticks() const { return first_ticks_; }
   double worst_s() const { return ticks_to_seconds(worst_); }
   double mean_s() const { return sweeps_ == 0 ? 0.0 : ticks_to_seconds(sum_ / sweeps_); }
 
@@ -106,6 +112,7 @@ class LineLog {
   std::vector<std::uint8_t> bytes_;
   wire::FrameDecoder decoder_;
   unsigned worst_busy_permille_ = 0;
+  std::int64_t first_ticks_ = 0;
   std::int64_t worst_ = 0;
   std::int64_t sum_ = 0;
   std::int64_t sweeps_ = 0;
@@ -135,21 +142,28 @@ int run(const Arguments& arguments) {
   const auto last = std::ranges::max(pulses, {}, &lighthouse::RawPulse::fall_ticks).fall_ticks;
   const ChipKind& chip = chip_named(arguments.chip);
   ChipBench bench(chip.make());
-  if (arguments.program.empty()) {
+  std::int64_t lead = kLead_ticks;
+  if (!arguments.external.empty()) {
+    bench.start_in_sdram(bytes_of(arguments.external));
+  } else if (arguments.program.empty()) {
     const auto image = marked(bytes_of(arguments.image));
+    lead = kLoaderLead_ticks + kLoaderLeadOfByte_ticks * static_cast<std::int64_t>(image.size());
     std::ranges::copy(image, bench.flash().content().begin() + chip.first_slot);
     bench.device().set_rom(bytes_of(arguments.loader));
   } else {
     bench.start_in_ram(bytes_of(arguments.program));
   }
-  const std::int64_t lead = arguments.program.empty() ? kLoaderLead_ticks : kLead_ticks;
   bench.device().set_ticks(first - lead);
   const auto begin = std::chrono::steady_clock::now();
   bench.power_on();
   bench.set_light(pulses);
-  bench.run_until(first);
-  (void)bench.take_counts();
   LineLog log;
+  run_until(bench, first, log);
+  (void)bench.take_counts();
+  if (arguments.count_from > 0.0) {
+    run_until(bench, std::min(last, first + static_cast<std::int64_t>(arguments.count_from * kTicksPerSecond)), log);
+    (void)bench.take_counts();
+  }
   run_until(bench, last, log);
   const ChipCounts counts = bench.take_counts();
   run_until(bench, last + kTail_ticks, log);
@@ -169,6 +183,24 @@ int run(const Arguments& arguments) {
                static_cast<double>(counts.ticks) / static_cast<double>(std::max<std::uint64_t>(counts.instructions, 1)),
                counts.worst_fill, log.worst_s() * 1e3, log.mean_s() * 1e3, 0.1 * log.worst_busy_permille(),
                static_cast<double>(last - first + lead + kTail_ticks) * 1e-6 / std::max(seconds, 1e-9));
+  if (!arguments.image.empty()) {
+    std::fprintf(stderr, "first byte %.3f s after power on\n", ticks_to_seconds(log.first_ticks() - (first - lead)));
+  }
+  if (counts.external_fetches != 0) {
+    std::fprintf(
+        stderr,
+        "of the SDRAM: %.3f M instructions fetched, %.2f %% hits; a fetch waits %.3f ticks on average; %.3f M lines "
+        "for "
+        "instructions, %.3f M accesses for data\n",
+        static_cast<double>(counts.external_fetches) * 1e-6,
+        100.0 - 100.0 * static_cast<double>(counts.lines_for_code) / static_cast<double>(counts.external_fetches),
+        static_cast<double>(counts.fetch_waits) / static_cast<double>(counts.external_fetches),
+        static_cast<double>(counts.lines_for_code) * 1e-6, static_cast<double>(counts.accesses_for_data) * 1e-6);
+  }
+  for (const std::string& violation : bench.sdram().violations()) {
+    std::fprintf(stderr, "FAILED: SDRAM: %s\n", violation.c_str());
+  }
+  if (!bench.sdram().violations().empty()) return 1;
   return frames.empty() ? 1 : 0;
 }
 
@@ -187,17 +219,21 @@ int main(int count, char** values) {
   auto* image =
       app.add_option("--image", arguments.image, "image in the first slot of the flash, which the loader starts");
   app.add_option("--loader", arguments.loader, "bytes of the boot ROM")->needs(image);
-  program->excludes(image);
+  auto* external = app.add_option("--external", arguments.external, "bytes for the SDRAM, started without the loader");
+  program->excludes(image)->excludes(external);
+  external->excludes(image);
   app.add_option("--output", arguments.output, "file for the bytes of the serial line")->required();
   app.add_option("--chip", arguments.chip, "ep4ce10, or up5k with four inputs")
       ->check(CLI::IsMember({"ep4ce10", "up5k"}));
   app.add_option("--stamped", arguments.stamped,
                  "file for the pulses as the capture block stamped them, a table as EDGES");
   app.add_option("--seconds", arguments.seconds, "seconds of light to simulate");
+  app.add_option("--count-from", arguments.count_from,
+                 "seconds of light before instructions, cycles and fetches are counted");
   CLI11_PARSE(app, count, values);
   try {
-    if (arguments.program.empty() && arguments.loader.empty())
-      throw pharos::host::InputError("--program, or --image and --loader");
+    if (arguments.program.empty() && arguments.external.empty() && arguments.loader.empty())
+      throw pharos::host::InputError("--program, --external, or --image and --loader");
     return pharos::rtl::run(arguments);
   } catch (const pharos::host::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -73,7 +73,7 @@ def objections(rtl):
         yield "the clock's constraint names no port"
     elif abs(float(period[1]) * rate - 1e9) > 1:
         yield f"a period of {period[1]} ns is not that of {rate} Hz"
-    if number["inclk0_input_frequency"] * rate != 10**12 or number["clk0_multiply_by"] != number["clk0_divide_by"]:
+    if number["inclk0_input_frequency"] * rate != 10**12 or any(number[f"clk{i}_multiply_by"] != number[f"clk{i}_divide_by"] for i in (0, 1)):
         yield f"the PLL does not make {rate} Hz of its input"
     yield from (f"{port} in pharos.sdc is no port" for group in re.findall(r"get_ports \{?([^\]}]*(?:\[\*\][^\]}]*)*)", limits)
                 for port in re.findall(r"[a-z_0-9]+", group.replace("[*]", "")) if not any(bit.split("[")[0] == port for bit in bits))
@@ -95,6 +95,8 @@ FAULTS = (  # file, text, replacement
     ("ep4ce10/pharos.sdc", "-period 20.000", "-period 25.000"),
     ("ep4ce10/pharos.sdc", "get_ports flash_in]", "get_ports flash_input]"),
     ("ep4ce10/chip_pll.v", ".clk0_multiply_by(1)", ".clk0_multiply_by(2)"),
+    ("ep4ce10/chip_pll.v", ".clk1_divide_by(1)", ".clk1_divide_by(2)"),
+    ("ep4ce10/pharos.qsf", "PIN_B14 -to sdram_clock\n", "PIN_M1 -to sdram_clock\n"),
     ("ep4ce10/ep4ce10_board.v", "output wire [ 3:0] leds", "output wire [ 4:0] leds"),
     ("soc/pharos_chip.v", ".CLOCK_HZ(50000000)", ".CLOCK_HZ(48000000)"),
 )

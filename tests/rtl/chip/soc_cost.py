@@ -22,7 +22,7 @@ TOP = "pharos_chip"
 MAX_LOGIC_ELEMENTS = 5000
 MAX_M9K = 46
 # Black boxes: M9K and multipliers of 9 bits of one. A lane is 8,192 x 8 bits, the ROM 1,536 x 32, an M9K 1,024 x 8 or 256 x 32.
-BOXES = {"soc_ram_lane": (8, 0), "soc_rom": (6, 0), "core_multiplier": (0, 2)}
+BOXES = {"soc_ram_lane": (8, 0), "soc_rom": (6, 0), "soc_cache_tags": (1, 0), "soc_cache_half": (1, 0), "core_multiplier": (0, 2)}
 
 
 def netlist():

@@ -2,6 +2,7 @@
 #include "rtl/chip/spi_flash_model.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace pharos::rtl {
 namespace {
@@ -17,6 +18,7 @@ constexpr std::uint32_t kSector = 65'536;
 }  // namespace
 
 bool SpiFlashModel::tick(bool select_n, bool clock, bool in) {
+  ++now_;
   if (busy_ticks_ != 0) --busy_ticks_;
   if (select_n) {
     if (selected_ && bits_ == 0) execute();
@@ -61,7 +63,9 @@ void SpiFlashModel::take_byte(std::uint8_t byte) {
   if (command_ == kReadStatus) {
     out_ = static_cast<std::uint8_t>((busy_ticks_ != 0 ? 1 : 0) | (writable_ ? 2 : 0));
   } else if (command_ == kRead && number >= 3 && busy_ticks_ == 0) {
-    out_ = content_[address_++ % content_.size()];
+    const std::size_t at = address_++ % content_.size();
+    out_ = content_[at];
+    if (!unstable.empty()) out_ = static_cast<std::uint8_t>(out_ ^ (unstable[at] & noise_()));
   }
 }
 
@@ -70,20 +74,22 @@ void SpiFlashModel::execute() {
   if (command_ == kWriteEnable && bytes_ == 1) writable_ = true;
   if (!writable_) return;
   if (command_ == kProgram && bytes_ > 4) {
-    for (std::uint32_t i = 0; i < page_.size(); ++i) {
-      const std::uint32_t at = address_ / kPage * kPage + (address_ + i) % kPage;
-      content_[at % content_.size()] &= page_[i];
-    }
-    busy_ticks_ = program_ticks;
-    writable_ = false;
-    ++pages_;
+    const std::size_t begin = address_ / kPage * kPage % content_.size();
+    std::vector<std::uint8_t> after(&content_[begin], &content_[begin] + kPage);
+    for (std::uint32_t i = 0; i < page_.size(); ++i) after[(address_ + i) % kPage] &= page_[i];
+    change(begin, std::move(after), program_ticks);
   } else if (command_ == kErase && bytes_ == 4) {
     const std::size_t begin = address_ / kSector * kSector % content_.size();
-    std::fill_n(&content_[begin], kSector, 0xFF);
-    busy_ticks_ = erase_ticks;
-    writable_ = false;
-    ++sectors_;
+    change(begin, std::vector<std::uint8_t>(kSector, 0xFF), erase_ticks);
   }
+}
+
+void SpiFlashModel::change(std::size_t offset, std::vector<std::uint8_t> after, std::uint32_t ticks) {
+  std::vector<std::uint8_t> before(&content_[offset], &content_[offset] + after.size());
+  std::ranges::copy(after, &content_[offset]);
+  changes_.push_back({now_, now_ + ticks, offset, std::move(before), std::move(after)});
+  busy_ticks_ = ticks;
+  writable_ = false;
 }
 
 }  // namespace pharos::rtl

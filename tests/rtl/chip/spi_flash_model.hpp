@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <random>
 #include <vector>
 
 namespace pharos::rtl {
@@ -17,12 +18,24 @@ class SpiFlashModel {
   /// Ticks that programming a page and erasing a sector take.
   std::uint32_t program_ticks = 500;
   std::uint32_t erase_ticks = 5000;
-  std::uint64_t pages_programmed() const { return pages_; }
-  std::uint64_t sectors_erased() const { return sectors_; }
+  /// A page or sector that was programmed or erased, with the ticks in which that took place.
+  struct Change {
+    std::uint64_t begins = 0;
+    std::uint64_t ends = 0;
+    std::size_t offset = 0;
+    std::vector<std::uint8_t> before;
+    std::vector<std::uint8_t> after;
+  };
+  const std::vector<Change>& changes() const { return changes_; }
+  void forget_changes() { changes_.clear(); }
+  std::uint64_t now() const { return now_; }
+  /// Bits of the content that read differently each time, as after a cut of power; empty: none.
+  std::vector<std::uint8_t> unstable;
 
  private:
   void take_byte(std::uint8_t byte);
   void execute();
+  void change(std::size_t offset, std::vector<std::uint8_t> after, std::uint32_t ticks);
 
   std::vector<std::uint8_t> content_;
   std::vector<std::uint8_t> page_;
@@ -37,8 +50,9 @@ class SpiFlashModel {
   std::uint32_t address_ = 0;
   bool writable_ = false;
   std::uint32_t busy_ticks_ = 0;
-  std::uint64_t pages_ = 0;
-  std::uint64_t sectors_ = 0;
+  std::uint64_t now_ = 0;
+  std::vector<Change> changes_;
+  std::minstd_rand noise_;
 };
 
 }  // namespace pharos::rtl

@@ -50,15 +50,5 @@ module crossing_properties (
     if (valid) assert (read_data == words[shown[2:0]]);
   end
 
-  reg [2:0] last_write_gray = 0, last_read_gray = 0;
-  always @(posedge write_clock) last_write_gray <= fifo.write_gray;
-  always @(posedge read_clock) last_read_gray <= fifo.read_gray;
-  wire [2:0] write_change = fifo.write_gray ^ last_write_gray;
-  wire [2:0] read_change = fifo.read_gray ^ last_read_gray;
-  always @* begin
-    assert ((write_change & (write_change - 3'd1)) == 3'd0);
-    assert ((read_change & (read_change - 3'd1)) == 3'd0);
-  end
-
 endmodule
 `default_nettype wire
