@@ -76,18 +76,18 @@ FoundRate place_rate(const Map& map, KeyframeId view, const PlaceFit& place, con
 }
 
 bool agrees(const Map& map, const Loop& loop, const Keyframe& next, const CameraFromTarget& expected, KeyframeId view,
-            const StereoCamera& camera) {
-  const PlaceFit found = fit_place(map, next, expected, view, camera);
+            const StereoCamera& camera, const PlaceFit& found) {
   if (found.pose.inliers < kMinAgreed) return false;
-  const Matrix6 covariance = in_target_axes(found.pose.pose, found.pose.covariance) + loop.covariance +
-                             drift_between(map, next.id, loop.here, camera);
+  const Matrix6 covariance =
+      covariance_of(found, map, next, camera) + loop.covariance + drift_between(map, next.id, loop.here, camera);
   if (contradicts(place_offset(found.pose.pose, expected), covariance)) return false;
   return place_rate(map, view, found, camera).value() >= kMinFoundRatio * own_rate(map, next, camera).value();
 }
 
 }  // namespace
 
-ProvisionalLoop::Verdict ProvisionalLoop::hear(const Map& map, KeyframeId id, const StereoCamera& camera) {
+ProvisionalLoop::Verdict ProvisionalLoop::hear(const Map& map, KeyframeId id, const StereoCamera& camera,
+                                               const std::vector<PyramidLevel>& pyramid) {
   if (!map.keyframes.contains(loop_.here) || !map.keyframes.contains(loop_.there)) return Verdict::kDropped;
   if (++asked_ > kMaxAsked) return Verdict::kDropped;
   const auto at = map.keyframes.find(id);
@@ -96,7 +96,10 @@ ProvisionalLoop::Verdict ProvisionalLoop::hear(const Map& map, KeyframeId id, co
   const CameraFromTarget expected = next.pose * map.keyframes.at(loop_.here).pose.inverse() * loop_.corrected;
   const KeyframeId view = nearest_view(map, loop_.there, expected);
   if (view == kNone) return Verdict::kOpen;
-  ++(agrees(map, loop_, next, expected, view, camera) ? agreed_ : disagreed_);
+  const PlaceFit found = fit_place(map, next, expected, view, camera, pyramid);
+  const bool agreed = agrees(map, loop_, next, expected, view, camera, found);
+  ++(agreed ? agreed_ : disagreed_);
+  if (agreed) loop_.aligned[id] = found.aligned;
   if (agreed_ == kDecides) return Verdict::kConfirmed;
   return disagreed_ == kDecides ? Verdict::kContradicted : Verdict::kOpen;
 }

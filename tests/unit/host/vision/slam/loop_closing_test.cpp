@@ -183,6 +183,17 @@ TEST_F(LoopOfATurn, NoLoopFollowsAnotherAtOnce) {
   EXPECT_FALSE(closer_.find(add_keyframe(kAround + kSeenAgain - 1)));
 }
 
+TEST_F(LoopOfATurn, IsFoundWhereTheTrajectoryLeadsThoughNoWordsProposeIt) {
+  const KeyframeDatabase empty(words());
+  LoopCloser closer(kCamera, map_, empty);
+  std::optional<Loop> loop;
+  for (int k = 0; k < kAround + kSeenAgain && !loop; ++k) loop = closer.find(add_keyframe(k));
+  ASSERT_TRUE(loop);
+  EXPECT_LT(rotation_angle_between(truth(static_cast<int>(loop->there)).R, truth(static_cast<int>(loop->here)).R),
+            0.36);  // 20 deg and the drift
+  EXPECT_LT(rotation_angle_between(loop->corrected.R, truth(static_cast<int>(loop->here)).R), 0.004);
+}
+
 class LoopOfTwoAlikeHalves : public LoopOfATurn {
  protected:
   LoopOfTwoAlikeHalves() : LoopOfATurn(Alike::kAll) {}
