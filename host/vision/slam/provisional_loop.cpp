@@ -15,6 +15,8 @@ namespace {
 constexpr int kDecides = 2, kMaxAsked = 20;  // keyframes
 constexpr double kMaxView_rad = 20.0 * std::numbers::pi / 180.0;
 constexpr double kMinFoundRatio = 0.5;
+constexpr double kApart_rad = 5.0 * std::numbers::pi / 180.0;  // alike parts of a body are farther apart
+constexpr double kDriftSigmas = 5.0;
 
 // Of the place and its neighbours the keyframe that looks from the most similar direction; kNone where none is near.
 KeyframeId nearest_view(const Map& map, KeyframeId there, const CameraFromTarget& pose) {
@@ -81,6 +83,9 @@ bool agrees(const Map& map, const Loop& loop, const Keyframe& next, const Camera
   const Matrix6 covariance =
       covariance_of(found, map, next, camera) + loop.covariance + drift_between(map, next.id, loop.here, camera);
   if (contradicts(place_offset(found.pose.pose, expected), covariance)) return false;
+  // Where the trajectory is known to a few degrees, no other part of the body can be meant.
+  const Matrix6 drift = drift_between(map, next.id, view, camera);
+  if (kDriftSigmas * std::sqrt(drift.topLeftCorner<3, 3>().trace()) < kApart_rad) return true;
   return place_rate(map, view, found, camera).value() >= kMinFoundRatio * own_rate(map, next, camera).value();
 }
 
