@@ -20,6 +20,7 @@ constexpr int kLocalSteps = 6;
 constexpr std::size_t kChainedKeyframes = 40;  // near a new one, from which its covariance is computed
 constexpr double kMapping_s = 0.19;            // of a keyframe: 0.2, so that four pairs at 20 Hz are enough
 constexpr std::size_t kMaxWaiting = 3;         // keyframes, as in ORB-SLAM2
+constexpr std::size_t kMaxKeptImages = 8;      // a loop of a keyframe whose image is gone is measured by corners
 constexpr int kGlobalSteps = 12;               // while tracking continues
 constexpr int kFinalSteps = 40;
 
@@ -99,6 +100,8 @@ KeyframeId Engine::make_keyframe(Frame& frame) {
     if (point != kNone && map_.points.at(point).seen_by.size() == 1) recent_.push_back(point);
   }
   keyframe_database_.add(keyframe);
+  if (settings_.close_loops) kept_.emplace(id, frontend_.pyramid());
+  if (kept_.size() > kMaxKeptImages) kept_.erase(kept_.begin());
   tracker_.became_keyframe(keyframe);
   last_keyframe_s_ = frame.time_s;
   figures_.add_keyframe();
@@ -228,6 +231,14 @@ ClosedLoop Engine::in_left_camera(const Loop& loop) const {
   return {map_.keyframes.at(loop.here).number, there.number, {R * measured.R * R.transpose(), R * measured.t}};
 }
 
+PyramidCopy Engine::take_image(KeyframeId id) {
+  const auto at = kept_.find(id);
+  if (at == kept_.end()) return {};
+  PyramidCopy out = std::move(at->second);
+  kept_.erase(at);
+  return out;
+}
+
 void Engine::close_loop(KeyframeId id) {
   if (!settings_.close_loops) return;
   const Stopwatch on_keyframe;
@@ -235,7 +246,8 @@ void Engine::close_loop(KeyframeId id) {
   KeyframeId first = kNone;
   {
     const std::lock_guard lock(mutex_);
-    const LoopDecision decision = closer_.decide(id);
+    const PyramidCopy image = take_image(id);
+    const LoopDecision decision = closer_.decide(id, image.levels());
     figures_.set_loops_refused(closer_.refused(), closer_.counts());
     if (decision.taken_back) {
       loops_.push_back(in_left_camera(*decision.taken_back));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "host/vision/slam/loop_closing.hpp"
 #include "host/vision/slam/pair_order.hpp"
 #include "host/vision/slam/pair_skew.hpp"
+#include "host/vision/slam/pyramid_copy.hpp"
 #include "host/vision/slam/run_figures.hpp"
 #include "host/vision/slam/tracker.hpp"
 #include "host/vision/slam/trajectory_log.hpp"
@@ -45,6 +47,7 @@ class Engine final : public SlamSystem {
   TrackedPose pose_of(const Tracked& tracked) const;
   TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen, KeyframeId& made);
   KeyframeId make_keyframe(Frame& frame);
+  PyramidCopy take_image(KeyframeId id);
   void note_skew(const Frame& frame);
   void map_keyframe(KeyframeId id);
   void close_loop(KeyframeId id);
@@ -62,6 +65,7 @@ class Engine final : public SlamSystem {
   TrajectoryLog log_;
   Frame last_;
   std::vector<PointId> recent_;
+  std::map<KeyframeId, PyramidCopy> kept_;  // images of keyframes that loop closing has not seen yet
   double last_keyframe_s_ = 0.0;
   PairOrder order_;
   PairSkew skew_;

@@ -55,6 +55,7 @@ struct Feature {
   Descriptor descriptor;
 
   bool stereo() const { return depth_m > 0.0; }
+  bool is_corner() const { return sigma_px >= kCornerSigma_px; }  ///< not aligned with its point's patch
   /// Expected variance of a coordinate, px^2.
   double variance_px2() const { return square(sigma_px * scale_of(level)); }
   /// The same as for a corner, without regard to any alignment.

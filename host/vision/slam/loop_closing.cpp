@@ -2,6 +2,7 @@
 #include "host/vision/slam/loop_closing.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "host/vision/slam/loop_evidence.hpp"
 #include "host/vision/slam/mapping.hpp"
@@ -15,7 +16,33 @@ namespace {
 constexpr KeyframeId kMinApart = 10;  // keyframes since the start and since the last loop
 constexpr std::size_t kMaxLoopCandidates = 3;
 constexpr int kMinDescriptorMatches = 20, kMinInliers = 40;
-constexpr int kStrong = 100;  // shared points of an edge of the essential graph
+constexpr std::size_t kMinAligned = 20;                           // of a loop that binds the sides by them alone
+constexpr double kMaxView_rad = 20.0 * std::numbers::pi / 180.0;  // descriptors are known again
+constexpr int kStrong = 100;                                      // shared points of an edge of the essential graph
+
+// Of the keyframes that are not `connected` the one that looks from the most similar direction, as the trajectory
+// tells; kNone where none is within kMaxView. Words are too few for this: they propose other views of alike material
+// too.
+KeyframeId same_view(const Map& map, const Keyframe& here, const std::set<KeyframeId>& connected) {
+  double depth_m = 0.0, count = 0.0;
+  for (const PointId id : here.points) {
+    if (id == kNone) continue;
+    depth_m += (here.pose * map.points.at(id).position_m).z();
+    count += 1.0;
+  }
+  const Vector3 eye = here.pose.inverse().t;
+  KeyframeId best = kNone;
+  double smallest_rad = kMaxView_rad;
+  for (const auto& [id, keyframe] : map.keyframes) {
+    if (connected.contains(id) || id > here.id) continue;
+    if (!((keyframe.pose.inverse().t - eye).norm() * count < kMaxView_rad * depth_m)) continue;
+    const double angle_rad = rotation_angle_between(keyframe.pose.R, here.pose.R);
+    if (angle_rad >= smallest_rad) continue;
+    smallest_rad = angle_rad;
+    best = id;
+  }
+  return best;
+}
 
 void move_points(Map& map, const std::map<KeyframeId, CameraFromTarget>& before, const std::set<PointId>& but) {
   for (auto& [id, point] : map.points) {
@@ -29,7 +56,7 @@ void move_points(Map& map, const std::map<KeyframeId, CameraFromTarget>& before,
 
 }  // namespace
 
-std::optional<Loop> LoopCloser::find(KeyframeId id) {
+std::optional<Loop> LoopCloser::find(KeyframeId id, const std::vector<PyramidLevel>& pyramid) {
   if (!map_.keyframes.contains(id) || id < kMinApart || (closed_at_ != kNone && id < closed_at_ + kMinApart)) {
     return std::nullopt;
   }
@@ -39,11 +66,11 @@ std::optional<Loop> LoopCloser::find(KeyframeId id) {
     connected.insert(near);
     for (const auto& [other, also] : map_.keyframes.at(near).neighbours) connected.insert(other);
   }
-  const auto candidates = keyframe_database_.detect_candidates(here.words, map_, connected);
+  const std::vector<KeyframeId> candidates = candidates_of(here, connected);
   std::optional<Loop> found;
   bool rival = false;
-  for (std::size_t k = 0; k < std::min(candidates.size(), kMaxLoopCandidates); ++k) {
-    auto loop = check(here, candidates[k].keyframe);
+  for (const KeyframeId candidate : candidates) {
+    auto loop = check(here, candidate, pyramid);
     if (!loop) continue;
     if (!found) {
       found = std::move(loop);
@@ -61,13 +88,13 @@ std::optional<Loop> LoopCloser::find(KeyframeId id) {
   return found;
 }
 
-LoopDecision LoopCloser::decide(KeyframeId id) {
+LoopDecision LoopCloser::decide(KeyframeId id, const std::vector<PyramidLevel>& pyramid) {
   LoopDecision out;
   if (!provisional_) {
-    if (auto loop = find(id)) provisional_.emplace(std::move(*loop));
+    if (auto loop = find(id, pyramid)) provisional_.emplace(std::move(*loop));
     return out;
   }
-  const ProvisionalLoop::Verdict verdict = provisional_->hear(map_, id, camera_);
+  const ProvisionalLoop::Verdict verdict = provisional_->hear(map_, id, camera_, pyramid);
   if (verdict == ProvisionalLoop::Verdict::kConfirmed) out.close = provisional_->loop();
   if (verdict == ProvisionalLoop::Verdict::kContradicted) {
     out.taken_back = provisional_->loop();
@@ -77,9 +104,20 @@ LoopDecision LoopCloser::decide(KeyframeId id) {
   return out;
 }
 
-std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate) {
+std::vector<KeyframeId> LoopCloser::candidates_of(const Keyframe& here, const std::set<KeyframeId>& connected) const {
+  std::vector<KeyframeId> out;
+  for (const auto& like : keyframe_database_.detect_candidates(here.words, map_, connected)) {
+    if (out.size() < kMaxLoopCandidates) out.push_back(like.keyframe);
+  }
+  const KeyframeId near = same_view(map_, here, connected);
+  if (near != kNone && std::find(out.begin(), out.end(), near) == out.end()) out.push_back(near);
+  return out;
+}
+
+std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate,
+                                      const std::vector<PyramidLevel>& pyramid) {
   ++counts_.candidates;
-  std::optional<Loop> loop = fit(here, candidate);
+  std::optional<Loop> loop = fit(here, candidate, pyramid);
   int* refused = nullptr;
   if (!loop) {
     refused = &counts_.geometry;
@@ -96,8 +134,8 @@ std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate
   return std::nullopt;
 }
 
-std::optional<Loop> LoopCloser::fit(const Keyframe& here, KeyframeId candidate) const {
-  const Keyframe& there = map_.keyframes.at(candidate);
+// By descriptors alone; where too few are alike, from where the trajectory says that the keyframe is.
+CameraFromTarget LoopCloser::start_at(const Keyframe& here, const Keyframe& there) const {
   std::vector<bool> known(there.points.size());
   for (std::size_t k = 0; k < known.size(); ++k) known[k] = there.points[k] != kNone;
   std::vector<Observation> observations;
@@ -107,11 +145,17 @@ std::optional<Loop> LoopCloser::fit(const Keyframe& here, KeyframeId candidate) 
         corner_of(here.features[static_cast<std::size_t>(match.feature)], map_.points.at(point).position_m));
   }
   const auto placed = robust_pose(observations, camera_, kMinDescriptorMatches, static_cast<std::uint64_t>(here.id));
-  if (!placed) return std::nullopt;
-  const PlaceFit refined = fit_place(map_, here, placed->pose, candidate, camera_);
+  return placed ? placed->pose : here.pose;
+}
+
+std::optional<Loop> LoopCloser::fit(const Keyframe& here, KeyframeId candidate,
+                                    const std::vector<PyramidLevel>& pyramid) const {
+  const CameraFromTarget start = start_at(here, map_.keyframes.at(candidate));
+  const PlaceFit refined = fit_place(map_, here, start, candidate, camera_, pyramid);
   if (refined.pose.inliers < kMinInliers) return std::nullopt;
-  return Loop{here.id, candidate, refined.pose.pose, in_target_axes(refined.pose.pose, refined.pose.covariance),
-              refined.seen};
+  return Loop{here.id,           candidate,
+              refined.pose.pose, covariance_of(refined, map_, here, camera_),
+              refined.seen,      {{here.id, refined.aligned}}};
 }
 
 void LoopCloser::move_side(const Loop& loop, const std::vector<KeyframeId>& side) {
@@ -152,14 +196,27 @@ std::vector<PoseEdge> LoopCloser::essential_edges(const std::map<KeyframeId, Cam
   return edges;
 }
 
-void LoopCloser::correct(const Loop& loop) {
-  std::map<KeyframeId, CameraFromTarget> before;
-  for (const auto& [id, keyframe] : map_.keyframes) before[id] = keyframe.pose;
-  // Edges of the state before duplicate points are fused between the two sides.
-  std::vector<PoseEdge> edges = essential_edges(before);
-  std::vector<KeyframeId> side = map_.best_neighbours(loop.here, map_.keyframes.size());
-  side.push_back(loop.here);
-  move_side(loop, side);
+// The keyframes get features at the aligned positions of the place's points: these bind the sides by a tenth of a
+// pixel. Duplicates are not fused, because observations of one of two fused points count as corners. False where too
+// few are aligned.
+bool LoopCloser::observe_aligned(const Loop& loop) {
+  if (loop.aligned.empty() || loop.aligned.begin()->second.size() < kMinAligned) return false;
+  for (const auto& [id, points] : loop.aligned) {
+    const auto at = map_.keyframes.find(id);
+    if (at == map_.keyframes.end()) continue;
+    for (const auto& [point, feature] : points) {
+      if (!map_.points.contains(point) || map_.points.at(point).seen_by.contains(id)) continue;
+      const auto added = at->second.features.size();
+      at->second.features.push_back(feature);
+      at->second.points.push_back(kNone);
+      map_.observe(point, id, static_cast<int>(added));
+      at->second.features.back().sigma_px = feature.sigma_px;
+    }
+  }
+  return true;
+}
+
+void LoopCloser::fuse_sides(const Loop& loop, const std::vector<KeyframeId>& side) {
   for (const auto& [feature, point] : loop.seen) {
     if (!map_.points.contains(point)) continue;
     const PointId own = map_.keyframes.at(loop.here).points[static_cast<std::size_t>(feature)];
@@ -172,6 +229,17 @@ void LoopCloser::correct(const Loop& loop) {
   const std::set<PointId> around = points_around(map_, loop.there);
   const std::vector<PointId> nearby_points(around.begin(), around.end());
   for (const KeyframeId id : side) fuse_points(map_, nearby_points, id, camera_, kLoopRadius_px);
+}
+
+void LoopCloser::correct(const Loop& loop) {
+  std::map<KeyframeId, CameraFromTarget> before;
+  for (const auto& [id, keyframe] : map_.keyframes) before[id] = keyframe.pose;
+  // Edges of the state before duplicate points are fused between the two sides.
+  std::vector<PoseEdge> edges = essential_edges(before);
+  std::vector<KeyframeId> side = map_.best_neighbours(loop.here, map_.keyframes.size());
+  side.push_back(loop.here);
+  move_side(loop, side);
+  if (!observe_aligned(loop)) fuse_sides(loop, side);
   Keyframe& here = map_.keyframes.at(loop.here);
   Keyframe& there = map_.keyframes.at(loop.there);
   here.loops[loop.there] = here.pose * there.pose.inverse();

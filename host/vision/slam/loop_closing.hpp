@@ -25,14 +25,16 @@ class LoopCloser {
   LoopCloser(const StereoCamera& camera, Map& map, const KeyframeDatabase& keyframe_database)
       : camera_(camera), map_(map), keyframe_database_(keyframe_database) {}
 
-  /// Candidates by visual words that share points neither with the keyframe nor with its neighbours, three at most;
-  /// each is checked by robust_pose, then with all points of its neighbourhood: 40 inliers close a loop, where the pose
+  /// Candidates that share points neither with the keyframe nor with its neighbours: by visual words, three at most,
+  /// and the one of the most similar view as the trajectory tells. Each is checked by robust_pose (or from where the
+  /// trajectory says), then with all points of its neighbourhood: 40 inliers close a loop, where the pose
   /// agrees with the trajectory (place_gate.hpp), the points are not on one plane, neighbours of the keyframe find the
   /// place too (loop_evidence.hpp), and no other candidate asks for another pose.
-  std::optional<Loop> find(KeyframeId keyframe);
+  /// `pyramid`: of the keyframe's left image, in which the place's patches are aligned; empty: they stay corners.
+  std::optional<Loop> find(KeyframeId keyframe, const std::vector<PyramidLevel>& pyramid = {});
   /// For every keyframe, in order: find(), or, where a loop was found, whether this keyframe confirms it
   /// (provisional_loop.hpp). A loop to close has to be given to correct().
-  LoopDecision decide(KeyframeId keyframe);
+  LoopDecision decide(KeyframeId keyframe, const std::vector<PyramidLevel>& pyramid = {});
   /// Moves the keyframe and its neighbours to the corrected poses, fuses duplicate points, and distributes the
   /// remaining error over all others by the essential graph (spanning tree, strong covisibility, loops).
   void correct(const Loop& loop);
@@ -40,8 +42,12 @@ class LoopCloser {
   const LoopCounts& counts() const { return counts_; }
 
  private:
-  std::optional<Loop> check(const Keyframe& here, KeyframeId candidate);
-  std::optional<Loop> fit(const Keyframe& here, KeyframeId candidate) const;
+  std::vector<KeyframeId> candidates_of(const Keyframe& here, const std::set<KeyframeId>& connected) const;
+  std::optional<Loop> check(const Keyframe& here, KeyframeId candidate, const std::vector<PyramidLevel>& pyramid);
+  CameraFromTarget start_at(const Keyframe& here, const Keyframe& there) const;
+  std::optional<Loop> fit(const Keyframe& here, KeyframeId candidate, const std::vector<PyramidLevel>& pyramid) const;
+  bool observe_aligned(const Loop& loop);
+  void fuse_sides(const Loop& loop, const std::vector<KeyframeId>& side);
   std::vector<PoseEdge> essential_edges(const std::map<KeyframeId, CameraFromTarget>& before) const;
   void move_side(const Loop& loop, const std::vector<KeyframeId>& side);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "host/vision/slam/patch_alignment.hpp"
 #include "host/vision/slam/place_gate.hpp"
 #include "host/vision/slam/projection_match.hpp"
 
@@ -20,6 +21,23 @@ constexpr double kPlaneSigmas = 3.0;
 double depth_sigma_m(const Feature& feature, double depth_m, const StereoCamera& camera) {
   const double disparity_px = kDisparityFraction * std::sqrt(feature.corner_variance_px2());
   return depth_m * depth_m * disparity_px / (camera.fx_px * camera.baseline_m);
+}
+
+// Moves the pose to that of the aligned patches; where a place was found as corners, its inliers stay those.
+void align_place(Frame& frame, const Map& map, const StereoCamera& camera, const std::vector<PyramidLevel>& pyramid,
+                 PlaceFit& out) {
+  if (pyramid.empty() || out.pose.inliers < kMinAgreed) return;
+  align_with_patches(frame, map, camera, out.pose.pose, pyramid);
+  const PoseOnly placed = place_frame(frame, map, camera, out.pose.pose);
+  if (placed.inliers < kMinAgreed) return;
+  out.pose.pose = placed.pose;
+  out.pose.covariance = placed.covariance;
+  out.pose.rms_px = placed.rms_px;
+  for (std::size_t k = 0; k < frame.points.size(); ++k) {
+    if (frame.points[k] != kNone && !frame.features[k].is_corner()) {
+      out.aligned.emplace_back(frame.points[k], frame.features[k]);
+    }
+  }
 }
 
 }  // namespace
@@ -43,26 +61,29 @@ std::set<PointId> points_around(const Map& map, KeyframeId id) {
 }
 
 PlaceFit fit_place(const Map& map, const Keyframe& keyframe, const CameraFromTarget& start, KeyframeId there,
-                   const StereoCamera& camera) {
+                   const StereoCamera& camera, const std::vector<PyramidLevel>& pyramid) {
   std::vector<Candidate> candidates;
   for (const PointId id : points_around(map, there)) {
     const MapPoint& point = map.points.at(id);
     candidates.push_back({id, point.position_m, point.descriptor, point.level, kLoopRadius_px, 0.0});
   }
-  const auto matches =
-      match_by_projection(candidates, keyframe, {}, camera, start, {kHighDistanceThreshold, 0.9, false});
-  std::vector<Observation> observations;
-  for (const ProjectionMatch& match : matches) {
-    observations.push_back(corner_of(keyframe.features[static_cast<std::size_t>(match.feature)],
-                                     candidates[static_cast<std::size_t>(match.candidate)].position_m));
+  Frame frame = keyframe;
+  frame.points.assign(frame.features.size(), kNone);
+  for (Feature& feature : frame.features) feature.sigma_px = kCornerSigma_px;
+  for (const ProjectionMatch& match :
+       match_by_projection(candidates, keyframe, {}, camera, start, {kHighDistanceThreshold, 0.9, false})) {
+    frame.points[static_cast<std::size_t>(match.feature)] = candidates[static_cast<std::size_t>(match.candidate)].point;
   }
-  PlaceFit out{adjust_pose(observations, camera, start), {}};
-  for (std::size_t k = 0; k < matches.size(); ++k) {
-    if (out.pose.inlier[k]) {
-      out.seen.emplace_back(matches[k].feature, candidates[static_cast<std::size_t>(matches[k].candidate)].point);
-    }
+  PlaceFit out{place_frame(frame, map, camera, start), {}, {}};
+  for (std::size_t k = 0; k < frame.points.size(); ++k) {
+    if (frame.points[k] != kNone) out.seen.emplace_back(static_cast<int>(k), frame.points[k]);
   }
+  align_place(frame, map, camera, pyramid, out);
   return out;
+}
+
+Matrix6 covariance_of(const PlaceFit& place, const Map& map, const Keyframe& keyframe, const StereoCamera& camera) {
+  return in_target_axes(place.pose.pose, place.pose.covariance) + error_of_a_link(map, keyframe, camera);
 }
 
 bool on_one_plane(const Map& map, const std::vector<std::pair<int, PointId>>& seen, const Keyframe& keyframe,

@@ -27,4 +27,26 @@ void align_with_patches(Frame& frame, const Map& map, const StereoCamera& camera
   }
 }
 
+PoseOnly place_frame(Frame& frame, const Map& map, const StereoCamera& camera, const CameraFromTarget& start) {
+  std::vector<Observation> observations;
+  std::vector<std::size_t> features;
+  for (std::size_t k = 0; k < frame.points.size(); ++k) {
+    const MapPoint* point = map.find_point(frame.points[k]);
+    if (point == nullptr) continue;
+    observations.push_back(observation_of(frame.features[k], point->position_m));
+    features.push_back(k);
+  }
+  PoseOnly placed = adjust_pose(observations, camera, start);
+  std::vector<Observation> aligned;
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    if (frame.features[features[k]].sigma_px < kCornerSigma_px) aligned.push_back(observations[k]);
+  }
+  frame.variance_factor = variance_factor(aligned, camera, placed.pose);
+  placed.covariance *= frame.variance_factor * correlation_factor(observations, camera, placed);
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    if (!placed.inlier[k]) frame.points[features[k]] = kNone;
+  }
+  return placed;
+}
+
 }  // namespace pharos::slam

@@ -32,6 +32,8 @@ Matrix6 about_centre(const Vector3& centre, double sigma_rot_rad, double sigma_m
   return arm * variance.asDiagonal() * arm.transpose();
 }
 
+}  // namespace
+
 Matrix6 error_of_a_link(const Map& map, const Keyframe& keyframe, const StereoCamera& camera) {
   Vector3 centre = Vector3::Zero();
   double count = 0.0, sum_m2 = 0.0;
@@ -48,8 +50,6 @@ Matrix6 error_of_a_link(const Map& map, const Keyframe& keyframe, const StereoCa
   const double moved_m = kCommonError_px / camera.fx_px * (keyframe.pose * centre).norm();
   return about_centre(centre, spread_m > moved_m ? moved_m / spread_m : 1.0, moved_m);
 }
-
-}  // namespace
 
 Vector6 place_offset(const CameraFromTarget& asked, const CameraFromTarget& expected) {
   const Pose<frame::Target, frame::Target> between = expected.inverse() * asked;

@@ -15,6 +15,8 @@ namespace {
 constexpr int kDecides = 2, kMaxAsked = 20;  // keyframes
 constexpr double kMaxView_rad = 20.0 * std::numbers::pi / 180.0;
 constexpr double kMinFoundRatio = 0.5;
+constexpr double kApart_rad = 5.0 * std::numbers::pi / 180.0;  // alike parts of a body are farther apart
+constexpr double kDriftSigmas = 5.0;
 
 // Of the place and its neighbours the keyframe that looks from the most similar direction; kNone where none is near.
 KeyframeId nearest_view(const Map& map, KeyframeId there, const CameraFromTarget& pose) {
@@ -76,18 +78,21 @@ FoundRate place_rate(const Map& map, KeyframeId view, const PlaceFit& place, con
 }
 
 bool agrees(const Map& map, const Loop& loop, const Keyframe& next, const CameraFromTarget& expected, KeyframeId view,
-            const StereoCamera& camera) {
-  const PlaceFit found = fit_place(map, next, expected, view, camera);
+            const StereoCamera& camera, const PlaceFit& found) {
   if (found.pose.inliers < kMinAgreed) return false;
-  const Matrix6 covariance = in_target_axes(found.pose.pose, found.pose.covariance) + loop.covariance +
-                             drift_between(map, next.id, loop.here, camera);
+  const Matrix6 covariance =
+      covariance_of(found, map, next, camera) + loop.covariance + drift_between(map, next.id, loop.here, camera);
   if (contradicts(place_offset(found.pose.pose, expected), covariance)) return false;
+  // Where the trajectory is known to a few degrees, no other part of the body can be meant.
+  const Matrix6 drift = drift_between(map, next.id, view, camera);
+  if (kDriftSigmas * std::sqrt(drift.topLeftCorner<3, 3>().trace()) < kApart_rad) return true;
   return place_rate(map, view, found, camera).value() >= kMinFoundRatio * own_rate(map, next, camera).value();
 }
 
 }  // namespace
 
-ProvisionalLoop::Verdict ProvisionalLoop::hear(const Map& map, KeyframeId id, const StereoCamera& camera) {
+ProvisionalLoop::Verdict ProvisionalLoop::hear(const Map& map, KeyframeId id, const StereoCamera& camera,
+                                               const std::vector<PyramidLevel>& pyramid) {
   if (!map.keyframes.contains(loop_.here) || !map.keyframes.contains(loop_.there)) return Verdict::kDropped;
   if (++asked_ > kMaxAsked) return Verdict::kDropped;
   const auto at = map.keyframes.find(id);
@@ -96,7 +101,10 @@ ProvisionalLoop::Verdict ProvisionalLoop::hear(const Map& map, KeyframeId id, co
   const CameraFromTarget expected = next.pose * map.keyframes.at(loop_.here).pose.inverse() * loop_.corrected;
   const KeyframeId view = nearest_view(map, loop_.there, expected);
   if (view == kNone) return Verdict::kOpen;
-  ++(agrees(map, loop_, next, expected, view, camera) ? agreed_ : disagreed_);
+  const PlaceFit found = fit_place(map, next, expected, view, camera, pyramid);
+  const bool agreed = agrees(map, loop_, next, expected, view, camera, found);
+  ++(agreed ? agreed_ : disagreed_);
+  if (agreed) loop_.aligned[id] = found.aligned;
   if (agreed_ == kDecides) return Verdict::kConfirmed;
   return disagreed_ == kDecides ? Verdict::kContradicted : Verdict::kOpen;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <utility>
 #include <vector>
 
-#include "host/vision/slam/map.hpp"
+#include "host/vision/slam/loop_evidence.hpp"
 
 namespace pharos::slam {
 
@@ -16,6 +17,8 @@ struct Loop {
   Matrix6 covariance = Matrix6::Zero();  ///< of `corrected`, as a covariance of zeta (place_gate.hpp)
   /// Features of `here` and the matching points of `there`'s side.
   std::vector<std::pair<int, PointId>> seen;
+  /// Points of `there`'s side whose patches were aligned, by keyframe: `here` and those that confirmed the loop.
+  std::map<KeyframeId, std::vector<AlignedPoint>> aligned;
 };
 
 /// A loop that was accepted and waits for the next keyframes. The map is not changed until they confirm it.
@@ -36,7 +39,9 @@ class ProvisionalLoop {
   /// A keyframe agrees where it finds the place at the pose that the loop expects, by 20 inliers, and of the place's
   /// points that it should see at least half the fraction that it finds of its neighbours' points. Two that agree
   /// confirm the loop, two that do not contradict it.
-  Verdict hear(const Map& map, KeyframeId id, const StereoCamera& camera);
+  /// `pyramid`: see fit_place().
+  Verdict hear(const Map& map, KeyframeId id, const StereoCamera& camera,
+               const std::vector<PyramidLevel>& pyramid = {});
   const Loop& loop() const { return loop_; }
 
  private:

@@ -53,28 +53,6 @@ void take_points(const std::vector<ProjectionMatch>& matches, const std::vector<
 
 }  // namespace
 
-PoseOnly Tracker::adjust(Frame& frame, const CameraFromTarget& start) const {
-  std::vector<Observation> observations;
-  std::vector<std::size_t> features;
-  for (std::size_t k = 0; k < frame.points.size(); ++k) {
-    const MapPoint* point = map_.find_point(frame.points[k]);
-    if (point == nullptr) continue;
-    observations.push_back(observation_of(frame.features[k], point->position_m));
-    features.push_back(k);
-  }
-  PoseOnly placed = adjust_pose(observations, camera_, start);
-  std::vector<Observation> aligned;
-  for (std::size_t k = 0; k < features.size(); ++k) {
-    if (frame.features[features[k]].sigma_px < kCornerSigma_px) aligned.push_back(observations[k]);
-  }
-  frame.variance_factor = variance_factor(aligned, camera_, placed.pose);
-  placed.covariance *= frame.variance_factor * correlation_factor(observations, camera_, placed);
-  for (std::size_t k = 0; k < features.size(); ++k) {
-    if (!placed.inlier[k]) frame.points[features[k]] = kNone;
-  }
-  return placed;
-}
-
 // A placed frame's points of the map, and its stereo features without one.
 Tracker::Known Tracker::known_in(const Frame& seen, const CameraFromTarget& seen_from) const {
   const Pose<frame::Target, frame::Camera> T_target_seen = seen_from.inverse();
@@ -209,7 +187,7 @@ std::optional<PoseOnly> Tracker::track_local_map(Frame& frame, const PoseOnly& s
     frame.points[static_cast<std::size_t>(match.feature)] = candidates[static_cast<std::size_t>(match.candidate)].point;
   }
   align_with_patches(frame, map_, camera_, start.pose, pyramid_);
-  PoseOnly placed = adjust(frame, start.pose);
+  PoseOnly placed = place_frame(frame, map_, camera_, start.pose);
   for (const PointId id : frame.points) {
     if (id != kNone) ++map_.points.at(id).found;
   }

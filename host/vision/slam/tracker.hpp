@@ -72,7 +72,6 @@ class Tracker {
   bool same_place(const Place& a, const Place& b) const;
   void learn_motion(const CameraFromTarget& before, const CameraFromTarget& now);
   std::optional<PoseOnly> track_local_map(Frame& frame, const PoseOnly& start, double widening, int min_inliers);
-  PoseOnly adjust(Frame& frame, const CameraFromTarget& start) const;
   bool lacks_points(const Frame& frame) const;
   bool needs_new_keyframe(const Frame& frame, int inliers, bool mapping_idle) const;
   CameraFromTarget last_pose() const { return T_last_reference_ * map_.pose_of(reference_); }
