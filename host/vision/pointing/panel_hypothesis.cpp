@@ -130,7 +130,7 @@ class Chooser {
       } else if (!refusal_ || panel.error() == PointingRefusal::kCutByBorder) {
         refusal_ = panel.error();
       }
-      if (!panel && panel.error() == PointingRefusal::kCutByBorder) cut_.push_back(pair);
+      if (!panel) (panel.error() == PointingRefusal::kCutByBorder ? cut_ : unsure_).push_back(pair);
     }
   }
 
@@ -146,7 +146,8 @@ class Chooser {
     if (confirmed == hypotheses.end()) return cut_.empty() ? PointingRefusal::kNoPanel : PointingRefusal::kCutByBorder;
     Hypothesis& best = *confirmed;
     if (is_along_sight(best)) return PointingRefusal::kAlongSight;
-    if (has_cut_rival(best)) return PointingRefusal::kCutByBorder;
+    if (has_rival_of(cut_, kRivalLength, best)) return PointingRefusal::kCutByBorder;
+    if (has_rival_of(unsure_, 1.0, best)) return PointingRefusal::kEdgeUnsure;
     const bool in_line = is_in_line(best);
     for (const Hypothesis& other : hypotheses) {
       if (!is_rival(best, other)) continue;
@@ -241,12 +242,12 @@ class Chooser {
     return plane.sigma_rad(h.axis.axis) < kMaxSquareSigma_rad && lies_along(plane, h.axis);
   }
 
-  // A pair that the border cuts has no axis. Where it does not continue the lone best one as a wing's other panel, it
-  // may be the panel instead.
-  bool has_cut_rival(const Hypothesis& best) const {
+  // A pair that the border cuts, or of which a side is no straight line, has no axis. Where it does not continue the
+  // lone best one as a wing's other panel, it may be the panel instead.
+  static bool has_rival_of(const std::vector<EdgePair>& pairs, double min_length, const Hypothesis& best) {
     const Segment& middle = best.pairs.front().middle;
-    return best.pairs.size() == 1 && std::any_of(cut_.begin(), cut_.end(), [&](const EdgePair& pair) {
-             return pair.middle.length() > kRivalLength * middle.length() &&
+    return best.pairs.size() == 1 && std::any_of(pairs.begin(), pairs.end(), [&](const EdgePair& pair) {
+             return pair.middle.length() > min_length * middle.length() &&
                     std::abs(pair.middle.along().dot(middle.along())) < std::cos(kMaxTurnOfWing_rad);
            });
   }
@@ -273,7 +274,8 @@ class Chooser {
   const std::vector<Segment>& outline_;
   std::vector<std::pair<EdgePair, PanelSides>> measured_;
   std::optional<PointingRefusal> refusal_;
-  std::vector<EdgePair> cut_;  // by the image's border
+  std::vector<EdgePair> cut_;     // by the image's border
+  std::vector<EdgePair> unsure_;  // not both sides are measured
 };
 
 }  // namespace
