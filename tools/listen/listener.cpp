@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/receive/message_values.hpp"
+#include "host/support/printable.hpp"
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
@@ -84,11 +85,12 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
 
 void Listener::take_state(const std::string& channel, const target_state_t& state, std::int64_t utc_ns,
                           std::int64_t monotonic_ns) {
-  if (format_ == ListenFormat::kJson) {
+  ReceivedPose received = received_state(channel, state, utc_ns);
+  if (format_ == ListenFormat::kJson && summary_.has_room(received)) {
     std::puts(state_json(state).c_str());
     std::fflush(stdout);
   }
-  take_pose(received_state(channel, state, utc_ns), monotonic_ns);
+  take_pose(std::move(received), monotonic_ns);
 }
 
 void Listener::take_pose(ReceivedPose pose, std::int64_t monotonic_ns) {
@@ -109,7 +111,7 @@ void Listener::tick(std::int64_t utc_ns, std::int64_t monotonic_ns) {
 
 void Listener::print_row(const std::string& row) {
   if (format_ != ListenFormat::kLines || row.empty()) return;
-  std::puts(row.c_str());
+  std::puts(host::printable(row).c_str());
   std::fflush(stdout);
 }
 

@@ -293,6 +293,29 @@ TEST(Listener, ShowsNoEscapeSequencesAndNoLinesOfOthers) {
   EXPECT_THAT(summary_text(listener.summary().sources()), Not(HasSubstr("\x1b")));
 }
 
+TEST(Listener, ShowsNoEscapeSequencesWherePosesStopAndComeAgain) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  pose_t message{};
+  message.valid = 1;
+  message.orientation_wxyz[0] = 1.0;
+  message.target = "dock\x1b[2J\n";
+  const std::vector<std::uint8_t> bytes = encoded(message);
+  Listener listener(ListenFormat::kLines, false, std::nullopt);
+  ::testing::internal::CaptureStdout();
+  const auto take = [&](std::int64_t at_ns) {
+    listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, at_ns);
+  };
+  take(0);
+  take(kSecond / 10);
+  listener.tick(0, 5 * kSecond);
+  take(6 * kSecond);
+  const std::string lines = ::testing::internal::GetCapturedStdout();
+  EXPECT_THAT(lines, HasSubstr("LOST"));
+  EXPECT_THAT(lines, HasSubstr("FOUND"));
+  EXPECT_THAT(lines, Not(HasSubstr("\x1b")));
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 5) << lines;
+}
+
 TEST(Listener, KeepsNoMoreSourcesThanItMay) {
   Listener listener(ListenFormat::kNone, false, std::nullopt);
   pose_t refusal{};
