@@ -40,10 +40,10 @@ Derivatives derivatives(const Kinematics& mean, const BiasMean& bias, const Sour
 }
 
 // White noise integrated over a step: q (dt^3/3, dt^2/2, dt) of each axis.
-void add_process_noise(Kinematic12& P, double dt, const MotionSettings& motion) {
+void add_process_noise(Kinematic12& P, double dt, double rate_rad_s, const MotionSettings& motion) {
   const double size = std::abs(dt);
   for (int axis = 0; axis < 3; ++axis) {
-    for (const auto& [value, rate, density] : {std::tuple{axis, axis + 6, motion.angular_acceleration_density},
+    for (const auto& [value, rate, density] : {std::tuple{axis, axis + 6, angular_density(rate_rad_s, motion)},
                                                std::tuple{axis + 3, axis + 9, motion.acceleration_density}}) {
       P(value, value) += density * size * size * size / 3.0;
       P(value, rate) += density * size * size / 2.0;
@@ -236,7 +236,7 @@ void Filter::predict_step(double dt, const Settings& settings) {
   for (int i = 0; i < kKinematic; ++i) transition.apply(P.col(i).data());
   P.transposeInPlace();
   for (int i = 0; i < kKinematic; ++i) transition.apply(P.col(i).data());
-  add_process_noise(P, dt, settings.motion);
+  add_process_noise(P, dt, mean_.rate_rad_s.norm(), settings.motion);
   for (std::size_t i = 0; i < kKinematic; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       covariance_(i, j) =
