@@ -174,8 +174,23 @@ void Filter::set_own_variance(std::uint8_t source, const OwnVariance& variance, 
   const auto ratio = [](double mounting, float now, float then) {
     return std::sqrt((mounting + 3.0 * static_cast<double>(now)) / (mounting + 3.0 * static_cast<double>(then)));
   };
-  scale_bias(source, ratio(rest.topLeftCorner<3, 3>().trace(), variance.rotation, before.rotation),
-             ratio(rest.bottomRightCorner<3, 3>().trace(), variance.position, before.position));
+  const double rotation = ratio(rest.topLeftCorner<3, 3>().trace(), variance.rotation, before.rotation);
+  const double position = ratio(rest.bottomRightCorner<3, 3>().trace(), variance.position, before.position);
+  // Whether the error follows the stated noise or stays is not known: the difference, (1 - ratio) of the old error, is
+  // new. Otherwise every change of the noise would measure the bias.
+  const double fresh = std::max(std::abs(1.0 / rotation - 1.0), std::abs(1.0 / position - 1.0));
+  const double kept = std::sqrt(std::max(0.0, 1.0 - fresh * fresh));
+  scale_bias(source, kept * rotation, kept * position);
+  add_bias(source, (1.0 - kept * kept) * stationary_bias(source, settings.sources[source]));
+}
+
+void Filter::add_bias(std::uint8_t source, const Matrix6& covariance) {
+  const std::size_t first = bias_row(source);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      covariance_(first + i, first + j) += covariance(static_cast<int>(i), static_cast<int>(j));
+    }
+  }
 }
 
 void Filter::scale_bias(std::uint8_t source, double rotation, double position) {
