@@ -70,7 +70,7 @@ struct SourceTable::State {
         kind(source_kind),
         choice(chosen),
         time(table.find_optional("time_s")),
-        frame(time ? std::nullopt : table.find_optional("frame")),
+        frame(time ? std::nullopt : table.find_optional(kind == SourceKind::kRing2 ? "problem" : "frame")),
         arrival(table.find_optional("arrival_s")),
         station(kind == SourceKind::kLighthouse ? table.find_optional("station") : std::nullopt),
         alpha(kind == SourceKind::kTof ? table.find_optional("alpha_deg") : std::nullopt),
@@ -80,9 +80,7 @@ struct SourceTable::State {
         second(group(second_columns(kind))),
         covariance(group(covariance_names())),
         centre(kind == SourceKind::kRing2 ? group(centre_columns()) : std::vector<std::size_t>()) {
-    if (!time && !(frame && choice.rate_hz)) {
-      throw InputError(table.name() + ": line 1: no column time_s; add the times, or give a rate for tables of frames");
-    }
+    if (!time && !frame) throw InputError(table.name() + ": line 1: no column time_s; add the times");
   }
 
   // Indices of columns that a table has all or none of; empty where one is missing.
@@ -111,6 +109,9 @@ struct SourceTable::State {
     if (time) return table.number(*time);
     const std::int64_t number = table.integer(*frame, 0, kLargestFrame);
     if (number >= kSmallestTime_ns) return static_cast<double>(number) * kNs_s;
+    if (!choice.rate_hz) {
+      table.fail(*frame, "no column time_s, and no name of 16 digits (ns); add the times, or give a rate of frames");
+    }
     return static_cast<double>(number) / *choice.rate_hz;
   }
 

@@ -33,7 +33,7 @@ struct SourceRow {
 /// What is selected of a table.
 struct SourceTableChoice {
   std::optional<int> station;     // lighthouse: rows of this station only
-  std::optional<double> rate_hz;  // of tables whose rows count frames and have no time
+  std::optional<double> rate_hz;  // of tables whose rows count frames (tof) or pairs (ring2) and have no time
 };
 
 /// Poses of one source from the table that `pharos track`, `tof`, `circles` or `slam --format csv` prints, row by row;

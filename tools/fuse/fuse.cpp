@@ -10,6 +10,7 @@
 #include "host/support/input_error.hpp"
 #include "tools/fuse/fused_rows.hpp"
 #include "tools/fuse/fused_tables.hpp"
+#include "tools/fuse/range_errors.hpp"
 #include "tools/fuse/truth_errors.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
@@ -36,6 +37,7 @@ struct FuseOptions {
   std::vector<std::string> tables;
   std::string mounting;
   std::string truth;
+  std::string by_range;
   std::string format = "csv";
   double rate_hz = 20.0;
   host::SourceTableChoice table;
@@ -47,8 +49,10 @@ struct FuseOptions {
 // Where states go: a table, or TUM lines.
 class FuseOutput {
  public:
-  explicit FuseOutput(const FuseOptions& options, std::vector<std::string> names) : names_(std::move(names)) {
+  FuseOutput(const FuseOptions& options, const host::TargetFuser& fuser) : names_(fuser.names()) {
     if (!options.truth.empty()) truth_.emplace(options.truth);
+    if (!options.by_range.empty()) ranges_.emplace(options.truth, fuser.sources());
+    by_range_ = options.by_range;
     if (options.format == "csv" || options.output.json) {
       table_ = std::make_unique<Output>(options.output, fused_columns(truth_.has_value()));
     }
@@ -58,6 +62,7 @@ class FuseOutput {
   void write(const fusion::TargetState& state) {
     const std::optional<StateError> error = truth_ ? truth_->add(state) : std::nullopt;
     valid_ += state.valid ? 1 : 0;
+    if (ranges_) ranges_->add(state);
     if (table_) {
       write_fused_row(state, names_, error, truth_.has_value(), table_->rows());
     } else if (state.valid) {
@@ -65,7 +70,12 @@ class FuseOutput {
     }
   }
 
+  void add(const ArrivedPose& pose) {
+    if (ranges_) ranges_->add(pose.source, pose.row);
+  }
+
   int finish() {
+    if (ranges_) ranges_->write(by_range_);
     if (table_) {
       table_->finish();
     } else {
@@ -78,6 +88,8 @@ class FuseOutput {
  private:
   std::vector<std::string> names_;
   std::optional<TruthErrors> truth_;
+  std::optional<RangeErrors> ranges_;
+  std::string by_range_;
   std::unique_ptr<Output> table_;
   std::string tum_;
   std::string path_;
@@ -108,14 +120,17 @@ void remark_refusals(const fusion::TargetEstimator& estimator, const FusedTables
 }
 
 int run(const FuseOptions& options) {
-  if (options.output.path != "-") require_writable(options.output.path);
+  if (!options.by_range.empty() && options.truth.empty()) throw host::InputError("--by-range needs --truth");
+  for (const std::string& path : {options.output.path, options.by_range}) {
+    if (!path.empty() && path != "-") require_writable(path);
+  }
   const host::Mounting mounting = host::read_mounting_file(options.mounting);
   const FusedTables tables = read_fused_tables(options.tables, mounting, options.table);
   host::FusionChoices choices = options.choices;
   std::copy_n(options.inertia.begin(), choices.inertia.size(), choices.inertia.begin());
   host::TargetFuser fuser(tables.sources, choices);
   const fusion::TargetEstimator& estimator = fuser.estimator();
-  FuseOutput output(options, fuser.names());
+  FuseOutput output(options, fuser);
   std::int64_t look = 0;
   const double first_s = tables.poses.front().arrival_s;
   const auto look_s = [&] { return first_s + static_cast<double>(look) / options.rate_hz; };
@@ -129,6 +144,7 @@ int run(const FuseOptions& options) {
       }
       output.write(fuser.state(std::llround(look_s() * 1e9)));
     }
+    output.add(pose);
     const fusion::Outcome outcome = fuser.push(pose.source, pose.row);
     if (options.rate_hz == 0.0 && outcome.refusal == fusion::Refusal::kNone) {
       output.write(fuser.state(estimator.newest_ns()));
@@ -185,6 +201,10 @@ void add_fuse(CLI::App& app, int& exit_code) {
   command->add_option("--mounting", options->mounting, "Where sensors and features are (pharos calibrate mounting)")
       ->required();
   command->add_option("--truth", options->truth, "T_vehicle_target: adds errors, NEES and whether the level held");
+  command
+      ->add_option("--by-range", options->by_range,
+                   "Errors of the state and of each source in bins of one metre of the true distance, into this file")
+      ->check(output_place());
   command->add_option("--format", options->format, "csv, or tum: timestamp tx ty tz qx qy qz qw")
       ->check(CLI::IsMember({"csv", "tum"}))
       ->capture_default_str();

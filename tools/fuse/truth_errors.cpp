@@ -10,18 +10,12 @@
 #include "tools/evaluate/trajectory_file.hpp"
 
 namespace pharos::tools {
-namespace {
-
-constexpr double kMaxGap_s = 0.2;
-
-}  // namespace
-
 TruthErrors::TruthErrors(const std::string& path)
     : truth_(evaluate::read_trajectory<evaluate::TruthPose>(path, evaluate::TrajectoryChoice{}).samples) {}
 
 std::optional<StateError> TruthErrors::add(const fusion::TargetState& state) {
   if (!state.valid) return std::nullopt;
-  const auto truth = evaluate::pose_at(truth_, static_cast<double>(state.time_ns) * 1e-9, kMaxGap_s);
+  const auto truth = evaluate::pose_at(truth_, static_cast<double>(state.time_ns) * 1e-9, kMaxTruthGap_s);
   if (!truth) return std::nullopt;
   const fusion::TargetPose expected{truth->pose.R, truth->pose.t};
   const Vector6 delta = pose_difference(expected, state.kinematics.pose);

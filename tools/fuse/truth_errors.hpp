@@ -9,6 +9,9 @@
 
 namespace pharos::tools {
 
+/// A truth with a longer gap around a time does not tell the pose then.
+inline constexpr double kMaxTruthGap_s = 0.2;
+
 /// Errors of one fused state.
 struct StateError {
   double rotation_rad = 0.0;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos circles: ring and nozzle of a satellite from two views.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "host/cameras/docking_target.hpp"
 #include "host/cameras/pair_order.hpp"
 #include "host/cameras/rig_file.hpp"
+#include "host/device/pair_names.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_rig.hpp"
 #include "pharos/ring2/paper_method.hpp"
@@ -18,6 +22,7 @@
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
 #include "tools/support/picture_kind.hpp"
+#include "tools/support/progress.hpp"
 #include "tools/support/stopwatch.hpp"
 
 namespace pharos::tools {
@@ -28,6 +33,7 @@ constexpr const char* kExample =
     "  pharos circles left.png right.png --rig rig.toml --overlay found.png\n"
     "  pharos circles left.png right.png --rig rig.toml --target target.toml\n"
     "  pharos circles --ellipses ellipses.csv --rig rig.toml --method paper\n"
+    "  pharos circles pairs --rig rig.toml > poses.csv\n"
     "Rig frame: x right, y down, z ahead. n = Rx(theta) Ry(gamma) (0, 0, -1) points from the ring towards the "
     "cameras;\n"
     "c is the ring's centre, the nozzle's is c + distance n. Neither radii nor distance need be known. --ellipses "
@@ -139,6 +145,67 @@ bool better_exchanged(host::Ring2Detector& finder, const host::Ring2Detection& g
   return !given.estimate || exchanged.estimate->ellipses > given.estimate->ellipses;
 }
 
+void solve_again_by_paper(const ring2::Rig& rig, host::Ring2Detection& circles) {
+  if (!circles.estimate) return;
+  const Solved estimate = solved(rig, circles.contours, true);
+  circles.estimate = estimate ? std::optional(*estimate) : std::nullopt;
+  if (!estimate) circles.refusal = name_of(estimate.error());
+}
+
+void write_detection(const host::Ring2Detection& circles, const Ring2Row& row, host::RowWriter& rows) {
+  if (circles.estimate) {
+    write_ring2(*circles.estimate, row, rows);
+  } else {
+    write_refusal(circles.refusal, rows);
+  }
+}
+
+// Of both images: the left one's without its side.
+std::string name_of(const host::PairName& pair) {
+  constexpr std::string_view kLeft = "_left";
+  return pair.stem.ends_with(kLeft) ? pair.stem.substr(0, pair.stem.size() - kLeft.size()) : pair.stem;
+}
+
+bool are_folders(const Options& options) {
+  return std::all_of(options.images.begin(), options.images.end(),
+                     [](const std::string& path) { return std::filesystem::is_directory(path); });
+}
+
+// Every pair of two folders, or of one that holds both sides. The first pair is asked for exchanged sides.
+bool from_folders(const ring2::Rig& rig, const Options& options) {
+  constexpr double kRate_hz = 1.0;  // times are not used
+  const std::vector<host::PairName> pairs = options.images.size() == 1
+                                                ? host::pair_names_in(options.images[0], kRate_hz)
+                                                : host::pair_names(options.images[0], options.images[1], kRate_hz);
+  const bool by_paper = options.method == "paper";
+  host::Ring2Settings settings;
+  settings.sizes = sizes_of(options.target);
+  host::Ring2Detector finder(rig, settings);
+  ImageInput input("pair");
+  Output output(options.output, ring2_columns(true));
+  Progress progress("searched", "pairs", pairs.size());
+  bool answered = false;
+  for (const host::PairName& pair : pairs) {
+    const std::array<host::GreyImage, 2> images{input.read(pair.left), input.read(pair.right)};
+    const host::Ring2Images views{images[0].view(), images[1].view()};
+    host::Ring2Detection circles = finder.find(views);
+    host::PairFault fault = host::pair_fault({views[0], views[1]});
+    if (fault == host::PairFault::kNone && &pair == &pairs.front() && better_exchanged(finder, circles, views)) {
+      fault = host::PairFault::kExchanged;
+    }
+    if (fault != host::PairFault::kNone) throw host::NoPairError(pair.left + ": " + text_of(fault));
+    if (by_paper) solve_again_by_paper(rig, circles);
+    output.rows().text(name_of(pair));
+    const double time_s = pair.stamp_ns ? static_cast<double>(*pair.stamp_ns) * 1e-9 : pair.time_s;
+    write_detection(circles, {by_paper, circles.one_edge, time_s}, output.rows());
+    answered = answered || circles.estimate;
+    progress.step();
+  }
+  output.finish();
+  if (answered) note_turn(options);
+  return answered;
+}
+
 bool from_images(const ring2::Rig& rig, const Options& options) {
   ImageInput input;
   const std::array<host::GreyImage, 2> images{input.read(options.images[0]), input.read(options.images[1])};
@@ -156,19 +223,11 @@ bool from_images(const ring2::Rig& rig, const Options& options) {
   }
   Output output(options.output, ring2_columns(false));
   const bool by_paper = options.method == "paper";
-  if (circles.estimate && by_paper) {
-    const Solved estimate = solved(rig, circles.contours, true);
-    circles.estimate = estimate ? std::optional(*estimate) : std::nullopt;
-    if (!estimate) circles.refusal = name_of(estimate.error());
-  }
+  if (by_paper) solve_again_by_paper(rig, circles);
   if (!circles.estimate && fault == host::PairFault::kNone) {
     note(options.images[0] + ", " + options.images[1] + ": " + refusal_text(circles.refusal));
   }
-  if (circles.estimate) {
-    write_ring2(*circles.estimate, {by_paper, circles.one_edge}, output.rows());
-  } else {
-    write_refusal(circles.refusal, output.rows());
-  }
+  write_detection(circles, {by_paper, circles.one_edge}, output.rows());
   if (!options.overlay.empty()) write_ring2_overlay(options.overlay, images, rig, circles);
   output.finish();
   if (circles.estimate) note_turn(options);
@@ -179,7 +238,10 @@ bool from_images(const ring2::Rig& rig, const Options& options) {
 int run(const Options& options) {
   const bool table = !options.ellipses.empty();
   if (table != options.images.empty()) throw host::InputError("give two images LEFT RIGHT, or --ellipses FILE");
-  if (!table && options.images.size() != 2) throw host::InputError("give both images: LEFT RIGHT; one tells no length");
+  const bool folders = !table && are_folders(options);
+  if (folders && !options.overlay.empty()) throw host::InputError("--overlay draws on one pair; give two images");
+  if (!table && !folders && options.images.size() != 2)
+    throw host::InputError("give both images: LEFT RIGHT; one tells no length");
   if (table && !options.target.empty()) {
     throw host::InputError("--target decides between circles of images; --ellipses names them");
   }
@@ -188,7 +250,8 @@ int run(const Options& options) {
   const bool twice = read == "-" && (options.rig == "-" || (!table && options.images[1] == "-"));
   if (twice) throw host::InputError("standard input (-) can be read once");
   const ring2::Rig rig = host::ring2_rig(host::read_rig_file(options.rig));
-  return (table ? from_table(rig, options) : from_images(rig, options)) ? kExitAnswered : kExitNoAnswer;
+  const auto answer = table ? from_table : folders ? from_folders : from_images;
+  return answer(rig, options) ? kExitAnswered : kExitNoAnswer;
 }
 
 }  // namespace
@@ -196,7 +259,11 @@ int run(const Options& options) {
 void add_ring2(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("circles", "Docking ring and nozzle seen by two cameras to their attitude");
   const auto options = std::make_shared<Options>();
-  command->add_option("IMAGES", options->images, "LEFT RIGHT: PNG, TIFF, PGM, PPM, JPEG or BMP; - is standard input")
+  command
+      ->add_option(
+          "IMAGES", options->images,
+          "LEFT RIGHT: PNG, TIFF, PGM, PPM, JPEG or BMP; - is standard input; or two folders, or one of NAME_left and "
+          "NAME_right")
       ->expected(0, 2);
   command->add_option("--rig", options->rig, "Rig file of both cameras (pharos calibrate stereo)")->required();
   command->add_option("--ellipses", options->ellipses, "Ellipses instead of images; - is standard input");

@@ -40,10 +40,10 @@ Derivatives derivatives(const Kinematics& mean, const BiasMean& bias, const Sour
 }
 
 // White noise integrated over a step: q (dt^3/3, dt^2/2, dt) of each axis.
-void add_process_noise(Kinematic12& P, double dt, const MotionSettings& motion) {
+void add_process_noise(Kinematic12& P, double dt, double rate_rad_s, const MotionSettings& motion) {
   const double size = std::abs(dt);
   for (int axis = 0; axis < 3; ++axis) {
-    for (const auto& [value, rate, density] : {std::tuple{axis, axis + 6, motion.angular_acceleration_density},
+    for (const auto& [value, rate, density] : {std::tuple{axis, axis + 6, angular_density(rate_rad_s, motion)},
                                                std::tuple{axis + 3, axis + 9, motion.acceleration_density}}) {
       P(value, value) += density * size * size * size / 3.0;
       P(value, rate) += density * size * size / 2.0;
@@ -174,8 +174,23 @@ void Filter::set_own_variance(std::uint8_t source, const OwnVariance& variance, 
   const auto ratio = [](double mounting, float now, float then) {
     return std::sqrt((mounting + 3.0 * static_cast<double>(now)) / (mounting + 3.0 * static_cast<double>(then)));
   };
-  scale_bias(source, ratio(rest.topLeftCorner<3, 3>().trace(), variance.rotation, before.rotation),
-             ratio(rest.bottomRightCorner<3, 3>().trace(), variance.position, before.position));
+  const double rotation = ratio(rest.topLeftCorner<3, 3>().trace(), variance.rotation, before.rotation);
+  const double position = ratio(rest.bottomRightCorner<3, 3>().trace(), variance.position, before.position);
+  // Whether the error follows the stated noise or stays is not known: the difference, (1 - ratio) of the old error, is
+  // new. Otherwise every change of the noise would measure the bias.
+  const double fresh = std::max(std::abs(1.0 / rotation - 1.0), std::abs(1.0 / position - 1.0));
+  const double kept = std::sqrt(std::max(0.0, 1.0 - fresh * fresh));
+  scale_bias(source, kept * rotation, kept * position);
+  add_bias(source, (1.0 - kept * kept) * stationary_bias(source, settings.sources[source]));
+}
+
+void Filter::add_bias(std::uint8_t source, const Matrix6& covariance) {
+  const std::size_t first = bias_row(source);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      covariance_(first + i, first + j) += covariance(static_cast<int>(i), static_cast<int>(j));
+    }
+  }
 }
 
 void Filter::scale_bias(std::uint8_t source, double rotation, double position) {
@@ -236,7 +251,7 @@ void Filter::predict_step(double dt, const Settings& settings) {
   for (int i = 0; i < kKinematic; ++i) transition.apply(P.col(i).data());
   P.transposeInPlace();
   for (int i = 0; i < kKinematic; ++i) transition.apply(P.col(i).data());
-  add_process_noise(P, dt, settings.motion);
+  add_process_noise(P, dt, mean_.rate_rad_s.norm(), settings.motion);
   for (std::size_t i = 0; i < kKinematic; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       covariance_(i, j) =

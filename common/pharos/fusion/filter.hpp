@@ -63,7 +63,8 @@ class Filter {
   /// Makes the bias of a relative source what explains this pose.
   void align(const TargetMeasurement& measurement, const Settings& settings);
   bool aligned(std::uint8_t source) const { return active_[source]; }
-  /// Of a source's own slow error from now on (SourceSettings::own_rotation_ratio): the bias grows or shrinks with it.
+  /// Of a source's own slow error from now on (SourceSettings::own_rotation_ratio): the bias grows or shrinks with it,
+  /// and what this may be wrong by is new noise of the bias.
   void set_own_variance(std::uint8_t source, const OwnVariance& variance, const Settings& settings);
   const OwnVariance& own_variance(std::uint8_t source) const { return own_[source]; }
   /// The source's bias is unknown again, as before its first measurement.
@@ -82,6 +83,7 @@ class Filter {
   void predict_biases(double dt_s, const Settings& settings);
   Matrix6 stationary_bias(std::uint8_t source, const SourceSettings& settings) const;
   void scale_bias(std::uint8_t source, double rotation, double position);
+  void add_bias(std::uint8_t source, const Matrix6& covariance);
   void set_bias_block(std::uint8_t source, const Matrix6& block);
   void shift(const std::array<double, kStates>& delta);
 

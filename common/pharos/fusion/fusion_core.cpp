@@ -16,6 +16,13 @@ constexpr double kJoining_s = 1.0;       // how long a source that came moves th
 constexpr double kContradicted_s = 1.0;  // measurements, but none that fits: the track is wrong
 constexpr int kMaxHalvings = 24;
 constexpr double kOwnErrorKept = 0.9;  // of the variance of a source's own error, a measurement
+// A bias follows where the noise that its source states has changed by this ratio: a smaller change says nothing of it.
+constexpr double kOwnErrorStep = 1.25;
+
+bool differs(float now, float before) {
+  const float ratio = static_cast<float>(kOwnErrorStep * kOwnErrorStep);  // of variances
+  return now > ratio * before || before > ratio * now;
+}
 
 // Norm of a correction in the standard deviations before it, the larger of rotation and position.
 double sigmas_moved(const Matrix6& before, const Vector6& moved) {
@@ -88,13 +95,16 @@ void FusionCore::note_own_error(FusionState& state, const Measurement& m) const 
   const double rotation_sigma = source.own_rotation_ratio * std::sqrt(rotation.trace() / axes);
   const double position_sigma =
       source.own_position_ratio * std::sqrt(m.covariance.bottomRightCorner<3, 3>().trace() / 3.0);
-  const OwnVariance last = state.main.own_variance(m.source);
+  OwnVariance& own = state.monitors[m.source].own;
+  const OwnVariance last = own;
   const double kept = last.rotation == 0.0F && last.position == 0.0F ? 0.0 : kOwnErrorKept;
   const auto smoothed = [kept](float before, double now) {
     return static_cast<float>(kept * static_cast<double>(before) + (1.0 - kept) * now);
   };
-  const OwnVariance own{smoothed(last.rotation, rotation_sigma * rotation_sigma),
-                        smoothed(last.position, position_sigma * position_sigma)};
+  own = {smoothed(last.rotation, rotation_sigma * rotation_sigma),
+         smoothed(last.position, position_sigma * position_sigma)};
+  const OwnVariance& used = state.main.own_variance(m.source);
+  if (!differs(own.rotation, used.rotation) && !differs(own.position, used.position)) return;
   state.main.set_own_variance(m.source, own, settings_);
   for (Filter& filter : state.without) filter.set_own_variance(m.source, own, settings_);
 }

@@ -6,10 +6,6 @@
 namespace pharos::fusion {
 namespace {
 
-bool tumbles(const MotionSettings& m) {
-  return m.kind == MotionKind::kTumbling || m.kind == MotionKind::kTumblingInOrbit;
-}
-
 bool orbits(const MotionSettings& m) {
   return m.kind == MotionKind::kClohessyWiltshire || m.kind == MotionKind::kTumblingInOrbit;
 }
@@ -96,6 +92,16 @@ void move_in_orbit(Kinematics& state, double dt, const MotionSettings& m, Transi
 }
 
 }  // namespace
+
+bool tumbles(const MotionSettings& motion) {
+  return motion.kind == MotionKind::kTumbling || motion.kind == MotionKind::kTumblingInOrbit;
+}
+
+double angular_density(double rate_rad_s, const MotionSettings& motion) {
+  if (tumbles(motion)) return motion.angular_acceleration_density;
+  const double ratio = motion.gyroscopic_ratio;
+  return motion.angular_acceleration_density + 2.0 * ratio * ratio * rate_rad_s * rate_rad_s * rate_rad_s;
+}
 
 void Transition::apply(double* errors) const {
   Eigen::Map<Vector3> rotation(errors), position(errors + 3), rate(errors + 6), velocity(errors + 9);

@@ -22,6 +22,14 @@ struct Transition {
   void apply(double* errors) const;
 };
 
+/// Whether the attitude follows Euler's equations with the inertia ratios that were told.
+bool tumbles(const MotionSettings& motion);
+
+/// Spectral density of the white angular acceleration, (rad/s^2)^2 s. What a body's own turning causes, sigma = ratio
+/// rate^2, lasts as long as a radian of that turning: white noise of density 2 sigma^2 / rate has the same effect over
+/// longer times.
+double angular_density(double rate_rad_s, const MotionSettings& motion);
+
 /// Steps longer than this are divided: the attitude's derivatives are of first order in rate times step.
 inline constexpr double kMaxStep_s = 0.05;
 

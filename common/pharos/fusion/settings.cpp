@@ -18,6 +18,7 @@ bool probability(double value) { return value > 0.0 && value < 1.0; }
 
 bool motion_is_usable(const MotionSettings& m) {
   if (!positive(m.acceleration_density) || !positive(m.angular_acceleration_density)) return false;
+  if (!(m.gyroscopic_ratio >= 0.0 && m.gyroscopic_ratio <= 1.0)) return false;
   if (!is_rotation_matrix(m.R_vehicle_orbit) || !is_rotation_matrix(m.R_target_principal)) return false;
   if ((m.kind == MotionKind::kClohessyWiltshire || m.kind == MotionKind::kTumblingInOrbit) &&
       !(positive(m.mean_motion_rad_s) && m.mean_motion_rad_s < 0.01)) {  // 0.00124 rad/s at the Earth's surface

@@ -23,6 +23,10 @@ struct MotionSettings {
   /// Spectral density of the white acceleration, (m/s^2)^2 s, and angular acceleration, (rad/s^2)^2 s.
   double acceleration_density = 1e-6;
   double angular_acceleration_density = 1e-8;
+  /// kFree, kClohessyWiltshire: a body free of torque, whose inertia is not known, accelerates by its own turning
+  /// (Euler's equations). 1 sigma of that acceleration over the square of the rate. A symmetric top has
+  /// |1 - I_a / I_t| tan(nutation) about: 0.04 where it nutates by 10 deg and the moments differ by a third.
+  double gyroscopic_ratio = 0.02;
   /// Clohessy-Wiltshire: the orbit's mean motion, rad/s, and the orbital frame (x radial, y along-track, z along the
   /// orbit's normal) in the vehicle's, which the vehicle holds. The state is target minus vehicle.
   double mean_motion_rad_s = 0.0;

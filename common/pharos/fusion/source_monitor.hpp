@@ -72,6 +72,7 @@ struct SourceMonitor {
   int confirmed = 0;
   std::int64_t confirmed_since_ns = 0;
   ErrorSums sums;
+  OwnVariance own;  // of its own slow error by the noise that it states, smoothed
 
   /// Whether the pose repeats the last one; noise never does.
   bool repeats_pose(const SensorPose& pose);

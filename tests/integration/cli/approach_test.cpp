@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
 #include <string>
 
 #include "tests/integration/cli/program.hpp"
@@ -34,6 +36,48 @@ TEST(CliApproach, MountingIsCalibratedFromASimulatedMinute) {
       pharos("calibrate mounting " + tables + " --given lighthouse --prior " + folder.path("m.toml") + " --output -");
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr("rig = \"bench\""));
+}
+
+// A few seconds of every sensor's raw data, each through its own estimator: the poses are those of one truth.
+TEST(CliApproach, RawDataOfAllSensorsFuseToTheTruth) {
+  const Folder folder;
+  const std::string dir = folder.path("raw");
+  const Outcome sim = pharos("sim approach " + approach_scenario("nominal") +
+                             " --seed 3 --level images --target " PHAROS_SCENARIOS
+                             "/target12.csv --from 160 --to 164.1 "
+                             "--rate tof=5 --rate ring2=0.5 --rate slam=0.5 --output " +
+                             dir);
+  ASSERT_EQ(sim.exit_code, 0) << sim.err;
+  EXPECT_TRUE(std::filesystem::exists(dir + "/slam/left/1000162000000000.png"));
+  const auto table = [&](const std::string& name, const std::string& command) {
+    const Outcome run = pharos(command + " --covariance --output " + dir + "/" + name + ".csv");
+    EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;
+  };
+  const std::string light = dir + "/lighthouse/";
+  table("lighthouse", "track " + light + "edges.csv.gz --target " + light + "target_surveyed.csv --calibration " +
+                          light + "stations_true.toml");
+  table("tof", "tof " + dir + "/tof --camera " + dir + "/tof/camera.toml");
+  table("ring2", "circles " + dir + "/ring2 --rig " + dir + "/ring2/rig.toml");
+  const Outcome run = pharos("fuse " + dir + "/lighthouse.csv " + dir + "/tof.csv " + dir + "/ring2.csv --mounting " +
+                             dir + "/mounting.toml --truth " + dir + "/truth.csv --by-range " + dir + "/range.csv");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::map<std::string, Row> sources;
+  for (const Row& row : rows_of(content_of(dir + "/range.csv"))) sources[row.at("source")] = row;
+  ASSERT_EQ(sources.size(), 4U);
+  for (const auto& [name, row] : sources) {
+    EXPECT_LT(std::stod(row.at("rms_tilt_deg")), 1.0) << name;
+    EXPECT_LT(std::stod(row.at("rms_mm")), 20.0) << name;
+  }
+  EXPECT_GE(std::stoi(sources.at("tof").at("count")), 15);
+  EXPECT_GE(std::stoi(sources.at("ring2").at("count")), 3);
+}
+
+TEST(CliApproach, FaultsOfPosesAreNotSimulatedInImages) {
+  const Folder folder;
+  const Outcome run = pharos("sim approach " + approach_scenario("faults") +
+                             " --level images --target " PHAROS_SCENARIOS "/target12.csv --output " + folder.path("x"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("use --level measurements"));
 }
 
 TEST(CliApproach, WhatCannotBeCalibratedIsOneLine) {

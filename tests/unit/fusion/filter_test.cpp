@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
+
+#include "pharos/fusion/target_estimator.hpp"
+
 namespace pharos::fusion {
 namespace {
 
@@ -93,6 +98,36 @@ TEST(FusionFilter, CommonNoiseOfASourceDoesNotAverageOut) {
   }
   // White noise of 1 mm, 2000 times, would leave 0.1 mm; the bias of 1 mm stays.
   EXPECT_GT(filter.pose_covariance().diagonal().tail(3).minCoeff(), 0.9e-6);
+}
+
+// A source's slow error goes with the noise that it states. A target at rest, a stated noise that wavers by 15 %: the
+// error neither wavers with it nor becomes known, so the state is never surer than that error.
+TEST(FusionFilter, AStatedNoiseThatWaversDoesNotMeasureTheSlowError) {
+  constexpr double kSigma = 1e-4, kRate_hz = 60.0;
+  Settings settings;
+  SourceSettings source;
+  source.bias_frame = BiasFrame::kFeature;
+  source.bias_covariance = Matrix6::Identity() * 1e-12;
+  source.own_rotation_ratio = source.own_position_ratio = 1.0;
+  source.bias_time_constant_s = 300.0;
+  settings.sources.push_back(source);
+  const auto estimator = std::make_unique<TargetEstimator>(settings);
+  std::int64_t time_ns = 0;
+  for (int k = 0; k < 1800; ++k) {
+    const double time_s = k / kRate_hz;
+    Measurement m;
+    m.time_ns = time_ns = std::llround(time_s * 1e9);
+    const double sigma = kSigma * (1.0 + 0.15 * std::sin(1.9 * time_s));
+    Vector6 noise;
+    for (int i = 0; i < 6; ++i) noise[i] = sigma * std::sin(k * (1.7 + 0.31 * i));
+    const TargetPose seen = kSomePose.moved_by(noise);
+    m.pose = {seen.R, seen.t};
+    m.covariance = Matrix6::Identity() * (sigma * sigma);
+    estimator->push(m);
+  }
+  const TargetState state = estimator->state(time_ns);
+  ASSERT_TRUE(state.valid);
+  for (int i = 0; i < 6; ++i) EXPECT_GT(std::sqrt(state.covariance(i, i)), 0.8 * kSigma) << i;
 }
 
 }  // namespace

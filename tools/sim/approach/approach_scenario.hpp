@@ -112,6 +112,7 @@ struct ApproachFault {
 struct ApproachScenario {
   ApproachMotion motion;
   double truth_step_s = 1e-3;
+  double from_s = 0.0, to_s = 1e9;  // no source measures outside, true times
   std::vector<ApproachSource> sources;
   std::vector<SunPassage> suns;
   std::vector<ApproachFault> faults;

@@ -7,7 +7,6 @@
 #include "pharos/base/units.hpp"
 #include "tools/sim/approach/fault_injection.hpp"
 #include "tools/sim/approach/source_errors.hpp"
-#include "tools/sim/approach/visibility.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -160,31 +159,44 @@ void ApproachSimulator::draw_faults() {
   }
 }
 
-std::vector<ApproachMeasurement> ApproachSimulator::measure(std::size_t index) const {
+std::vector<ApproachSight> ApproachSimulator::sights(std::size_t index) const {
   const ApproachSource& source = scenario_.sources[index];
   const host::SourceMounting& mounting = true_mounting_.sources[index];
-  const host::VehicleFromSensor T_vehicle_sensor = mounting.vehicle_from_sensor();
+  const auto T_sensor_vehicle = mounting.vehicle_from_sensor().inverse();
   const host::TargetFromFeature T_target_feature = *mounting.target_from_feature();
-  const auto T_feature_target = T_target_feature.inverse();
-  const Vector3 p_noise = source.kind == SourceKind::kSlam ? T_feature_target.t : Vector3::Zero();
   RandomStream timing(seed_, "timing " + source.name);
   Visibility visibility(scenario_, index, seed_);
+  std::vector<ApproachSight> out(static_cast<std::size_t>(scenario_.motion.duration_s * source.rate_hz));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    ApproachSight& at = out[i];
+    at.time_s = static_cast<double>(i) / source.rate_hz;
+    at.true_time_s = at.time_s + source.time_offset_s;
+    at.arrival_s = at.true_time_s + source.delay_s + source.delay_jitter_s * timing.uniform();
+    const auto T_sensor_target = T_sensor_vehicle * truth_.at(at.true_time_s);
+    at.pose = T_sensor_target * T_target_feature;
+    at.sight = visibility.at(at.true_time_s, T_sensor_target);
+    if (at.true_time_s < scenario_.from_s || at.true_time_s > scenario_.to_s) at.sight = Sight::kOutside;
+  }
+  return out;
+}
+
+std::vector<ApproachMeasurement> ApproachSimulator::measure(std::size_t index) const {
+  const ApproachSource& source = scenario_.sources[index];
+  const auto T_feature_target = true_mounting_.sources[index].target_from_feature()->inverse();
+  const Vector3 p_noise = source.kind == SourceKind::kSlam ? T_feature_target.t : Vector3::Zero();
   Noise noise(source, seed_);
   std::vector<ApproachMeasurement> out;
-  const auto count = static_cast<std::size_t>(scenario_.motion.duration_s * source.rate_hz);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (const ApproachSight& at : sights(index)) {
     ApproachMeasurement m;
     m.source = index;
-    m.time_s = static_cast<double>(i) / source.rate_hz;
-    m.true_time_s = m.time_s + source.time_offset_s;
-    m.arrival_s = m.true_time_s + source.delay_s + source.delay_jitter_s * timing.uniform();
-    const host::VehicleFromTarget truth = truth_.at(m.true_time_s);
-    m.pose = T_vehicle_sensor.inverse() * truth * T_target_feature;
-    const double ratio = noise_ratio(scenario_, index, m.true_time_s);
-    const Sight sight = visibility.at(m.true_time_s, T_vehicle_sensor.inverse() * truth);
-    m.seen = sight == Sight::kSeen;
-    noise.apply(m, p_noise, ratio);  // drawn always, so that an outage changes nothing else
-    if (sight != Sight::kOutside) out.push_back(m);
+    m.time_s = at.time_s;
+    m.true_time_s = at.true_time_s;
+    m.arrival_s = at.arrival_s;
+    m.pose = at.pose;
+    m.seen = at.sight == Sight::kSeen;
+    // Drawn always, so that an outage changes nothing else.
+    noise.apply(m, p_noise, noise_ratio(scenario_, index, m.true_time_s));
+    if (at.sight != Sight::kOutside) out.push_back(m);
   }
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     if (faults_[i].source == index) inject(faults_[i], scenario_.faults[i].ramp_s, seed_ + i, out);

@@ -10,8 +10,18 @@
 #include "host/mounting/mounting.hpp"
 #include "tools/sim/approach/approach_scenario.hpp"
 #include "tools/sim/approach/approach_truth.hpp"
+#include "tools/sim/approach/visibility.hpp"
 
 namespace pharos::sim {
+
+/// When a source measures, and what it could see then.
+struct ApproachSight {
+  double true_time_s = 0.0;  // on the vehicle's clock
+  double time_s = 0.0;       // as stamped by the source
+  double arrival_s = 0.0;    // on the vehicle's clock
+  Sight sight = Sight::kSeen;
+  host::SensorFromFeature pose;  // true
+};
 
 /// What a source answers to one measurement.
 struct ApproachMeasurement {
@@ -49,6 +59,8 @@ class ApproachSimulator {
   const host::Mounting& calibrated_mounting() const { return calibrated_mounting_; }
   const std::vector<DrawnFault>& faults() const { return faults_; }
 
+  /// Every measurement of one source in order, also those that see nothing.
+  std::vector<ApproachSight> sights(std::size_t source) const;
   /// All answers of one source in the order of the measurements. 300 s of four sources take about 0.1 s.
   std::vector<ApproachMeasurement> measure(std::size_t source) const;
   /// All sources in the order of arrival.

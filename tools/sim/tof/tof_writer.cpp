@@ -46,25 +46,31 @@ class TruthTable {
 
 }  // namespace
 
+void write_tof_camera(const TofScenario& scenario, const fs::path& directory) {
+  write_output(directory / "camera.toml", camera_of(scenario, RawCoordinates{}));
+}
+
+void write_tof_frame(TofSimulator& simulator, int frame, const std::string& name, const fs::path& directory) {
+  const TofScenario& scenario = simulator.scenario();
+  const TofPixels pixels = simulator.pixels(frame);
+  if (scenario.write_abcy16) {
+    const std::vector<std::uint8_t> bytes = abcy16_of(pixels, simulator.rays(), scenario.depth, RawCoordinates{});
+    write_output(directory / (name + "_abcy16.raw"), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return;
+  }
+  host::write_grey_png(directory / (name + "_intensity.png"),
+                       {pixels.intensity.data(), pixels.width_px, pixels.height_px});
+  host::write_grey_png(directory / (name + "_depth.png"), {pixels.depth.data(), pixels.width_px, pixels.height_px});
+}
+
 void write_tof_frames(TofSimulator& simulator, const fs::path& directory, const std::function<void()>& written) {
   make_output_folder(directory);
-  const TofScenario& scenario = simulator.scenario();
-  const RawCoordinates raw;
-  write_output(directory / "camera.toml", camera_of(scenario, raw));
+  write_tof_camera(simulator.scenario(), directory);
   TruthTable truth(directory / "truth.csv");
   for (int frame = 0; frame < simulator.frames(); ++frame) {
     const std::string number =
         file_number(static_cast<std::size_t>(frame), static_cast<std::size_t>(simulator.frames()));
-    const TofPixels pixels = simulator.pixels(frame);
-    if (scenario.write_abcy16) {
-      const std::vector<std::uint8_t> bytes = abcy16_of(pixels, simulator.rays(), scenario.depth, raw);
-      write_output(directory / (number + "_abcy16.raw"), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    } else {
-      host::write_grey_png(directory / (number + "_intensity.png"),
-                           {pixels.intensity.data(), pixels.width_px, pixels.height_px});
-      host::write_grey_png(directory / (number + "_depth.png"),
-                           {pixels.depth.data(), pixels.width_px, pixels.height_px});
-    }
+    write_tof_frame(simulator, frame, number, directory);
     truth.add(number, simulator.truth(frame));
     written();
   }

@@ -73,9 +73,22 @@ TEST(SourceTable, RefusesSeveralStationsAndMissingTimes) {
   EXPECT_NE(test::error_of([&] { (void)read({}); }).find("line 4: column 'station': rows of several stations"),
             std::string::npos);
   EXPECT_EQ(read({1, std::nullopt}), 1u);
-  const test::TemporaryFile frames("frame,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,status\n");
-  EXPECT_NE(test::error_of([&] { SourceTable(frames.path(), SourceKind::kTof); }).find("no column time_s"),
+  const std::string columns = "frame,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,status\n";
+  const test::TemporaryFile frames(columns + "0012,1,0,0,0,0,0,1,0.1,1,ok\n");
+  EXPECT_NE(test::error_of([&] { SourceTable(frames.path(), SourceKind::kTof).next(); }).find("line 2"),
             std::string::npos);
+}
+
+// Images are named by their time in ns: such a table needs neither a column nor a rate.
+TEST(SourceTable, NamesOfSixteenDigitsAreTimes) {
+  const test::TemporaryFile frames(
+      "frame,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,status\n"
+      "1000162250000000,1,0,0,0,0,0,1,0.1,1,ok\n");
+  EXPECT_DOUBLE_EQ(SourceTable(frames.path(), SourceKind::kTof).next()->time_s, 1000162.25);
+  const test::TemporaryFile pairs(
+      "problem,theta_deg,gamma_deg,cx_m,cy_m,cz_m,sigma_deg,sigma_position_mm,status\n"
+      "1000162250000000,1,2,0,0,3,0.1,1,ok\n");
+  EXPECT_DOUBLE_EQ(SourceTable(pairs.path(), SourceKind::kRing2).next()->time_s, 1000162.25);
 }
 
 TEST(SourceTable, RefusesAnAttitudeAndACovarianceThatAreNone) {

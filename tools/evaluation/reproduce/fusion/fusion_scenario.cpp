@@ -58,6 +58,7 @@ fusion::Settings settings_of(const sim::WorldSettings& world, double faults_per_
   fusion::Settings settings;
   settings.motion.acceleration_density = world.acceleration_density;
   settings.motion.angular_acceleration_density = world.angular_acceleration_density;
+  settings.motion.gyroscopic_ratio = 0.0;  // this world's rates change by white noise alone
   for (const sim::MeasuredSource& from : world.sources) {
     fusion::SourceSettings to;
     to.T_vehicle_sensor = {from.T_vehicle_sensor.R, from.T_vehicle_sensor.t};
