@@ -60,6 +60,30 @@ struct PoseHeader {
   double sigma_rad = 0.0;
 };
 
+/// measure_network: header, sensors, stations, hits in the order of time.
+struct NetworkHeader {
+  std::uint32_t magic = kMagic;
+  std::uint32_t sensors = 0;
+  std::uint32_t stations = 0;
+  std::uint32_t hits = 0;
+};
+
+/// Where a station of Lighthouse 1.0 stands, and what is known of that.
+struct NetworkStationRow {
+  PoseRow T_world_station;
+  double sigma_rotation_rad = 0.0, sigma_position_m = 0.0, sigma_plane_rad = 0.0;
+};
+
+struct HitRow {
+  double time_s = 0.0;
+  double angle_rad = 0.0;
+  std::uint64_t who = 0;  // sensor, plane in bit 8, station from bit 16 on
+
+  constexpr std::uint8_t sensor() const { return who & 0xFFU; }
+  constexpr std::size_t plane() const { return static_cast<std::size_t>(who >> 8U & 1U); }
+  constexpr std::uint8_t station() const { return who >> 16U & 0xFFU; }
+};
+
 struct ProblemHeader {
   std::uint64_t observations = 0;
   PoseRow prior;

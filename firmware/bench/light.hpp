@@ -8,10 +8,10 @@
 
 namespace pharos::bench {
 
-/// The target described by a LightHeader.
-inline Target target_of(Input& input, const LightHeader& header) {
+/// A target of so many rows.
+inline Target target_of(Input& input, std::uint32_t sensors) {
   Target target;
-  for (std::uint32_t k = 0; k < header.sensors; ++k) {
+  for (std::uint32_t k = 0; k < sensors; ++k) {
     const auto& row = input.next<SensorRow>();
     target.push_back(
         {static_cast<std::uint8_t>(row.sensor), {row.position_m[0], row.position_m[1], row.position_m[2]}, {}});

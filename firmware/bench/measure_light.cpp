@@ -34,7 +34,7 @@ void take(track::EpochTracker& tracker, const lighthouse::Sweep& sweep) {
 int main() {
   bench::Input input;
   const auto& header = input.header<bench::LightHeader>();
-  static const Target target = bench::target_of(input, header);
+  static const Target target = bench::target_of(input, header.sensors);
   track::TrackOptions options;
   options.warm_start = true;
   options.solve.sigma_rad = header.sigma_rad;

@@ -34,7 +34,7 @@ void take(motion::MotionTracker& tracker, const lighthouse::Sweep& sweep) {
 int main() {
   bench::Input input;
   const auto& header = input.header<bench::LightHeader>();
-  static const Target target = bench::target_of(input, header);
+  static const Target target = bench::target_of(input, header.sensors);
   motion::MotionOptions options;
   options.solve.sigma_rad = header.sigma_rad;
   static motion::MotionTracker tracker(target, options);

@@ -28,6 +28,7 @@ BUDGET = {
     "Lighthouse 2.0: bits of a burst: median": 12_500,
     "Lighthouse 2.0: a burst of a known station: median": 21_000,
     "Lighthouse 2.0: a burst among all channels: median": 28_000,
+    "stations of a room: instructions a hit of two stations: mean": 2_400_000,
     "decoder object": 7_168,
     "tracker object": 15_360,
 }

@@ -34,6 +34,9 @@ constexpr double kUnconfirmed_rad = 0.15;
 constexpr std::size_t kSensorsForPair = 3;
 // Hits that do not fit the others of their sweep: an attitude that leaves out so many is wrong. Averaged over so many.
 constexpr double kAttitudeDoubted = 0.25, kLeftOutSweeps = 8.0;
+// Of the last sweeps so large a fraction at which the rates were forgotten: two stations that contradict each other
+// move the filter in turn. The onset of a motion is one or two.
+constexpr double kMaxResets = 0.1, kResetSweeps = 32.0;
 // Sweeps in a row that exclude a station while another one fits, and that readmit it.
 constexpr int kForExclusion = 25, kForReadmission = 50;
 // How often all stations are asked whether one contradicts the others, and how often more than not in favour it is
@@ -130,6 +133,7 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
   if (!taken) ++counters_.sweeps_refused;
   const double interval_s = ambiguous_ ? kCheckAmbiguous_s : kCheck_s;
   if (taken && now_s - checked_s_ > interval_s) check_alternatives(now_s);
+  if (disputed()) return refused(sweep, pose::Refusal::kPoorFit);
   if (fix_is_better()) {
     const NetworkResult fixed = from_fix(sweep, 0.0);
     if (fixed.pose.ok()) return fixed;
@@ -156,7 +160,9 @@ bool NetworkTracker::take(const PlaneSweep& sweep, LinearisedSweep& linearised) 
     left_out_ += (left - left_out_) / kLeftOutSweeps;
   }
   bool good = fits(linearised);
-  if (!good && !station.excluded && ++refused_in_row_ >= kRefusedForReset) {
+  const bool reset = !good && !station.excluded && ++refused_in_row_ >= kRefusedForReset;
+  if (!station.excluded) resets_ += ((reset ? 1.0 : 0.0) - resets_) / kResetSweeps;
+  if (reset) {
     filter_.reset_rates();
     ++counters_.rate_resets;
     refused_in_row_ = 0;
@@ -175,22 +181,31 @@ bool NetworkTracker::take(const PlaneSweep& sweep, LinearisedSweep& linearised) 
   return true;
 }
 
-// A station whose sweeps contradict while another's fit was moved, or its entry in the file is wrong.
+// A station whose sweeps contradict while those of others fit was moved, or its entry in the file is wrong. Where one
+// other fits, that one may be it.
 void NetworkTracker::watch(std::size_t station, bool fits, double time_s) {
   StationWatch& own = watch_[station];
   own.refused = fits ? 0 : own.refused + 1;
   own.accepted = fits ? own.accepted + 1 : 0;
-  const bool other_fits = std::any_of(watch_.begin(), watch_.end(), [&](const StationWatch& other) {
+  const auto fitting = std::count_if(watch_.begin(), watch_.end(), [&](const StationWatch& other) {
     return &other != &own && !other.excluded && other.accepted >= kForExclusion && time_s - other.seen_s < kFresh_s;
   });
-  if (!own.excluded && own.refused >= kForExclusion && other_fits) {
-    own.excluded = true;
-    ++counters_.exclusions;
+  if (!own.excluded && own.refused >= kForExclusion && fitting > 0) {
+    (fitting > 1 ? own.excluded : own.disputed) = true;
+    if (fitting > 1) ++counters_.exclusions;
   } else if (own.excluded && own.accepted >= kForReadmission) {
     own.excluded = false;
     ++counters_.readmissions;
   }
+  if (own.excluded || own.accepted >= kForReadmission) own.disputed = false;
   if (fits) own.seen_s = time_s;
+}
+
+// A target that does not tell its range is answered only where two stations agree on its position.
+bool NetworkTracker::disputed() const {
+  if (!tells_range(target_, options_.noise)) return false;
+  return resets_ > kMaxResets ||
+         std::any_of(watch_.begin(), watch_.end(), [](const StationWatch& station) { return station.disputed; });
 }
 
 // One that was moved draws the filter away, so that others do not fit it either: they are compared without it.
@@ -207,6 +222,7 @@ void NetworkTracker::check_consensus(double time_s) {
     station.dissents = consensus.dissenting == s ? station.dissents + 1 : std::max(0, station.dissents - 1);
     if (station.excluded || station.dissents < kDissents) continue;
     station.excluded = true;
+    station.disputed = false;
     station.dissents = station.accepted = 0;
     contradictions_ = 0;
     contradicted_ = false;

@@ -46,7 +46,7 @@ struct NetworkCounters {
 };
 
 /// A target among 1 to 16 stations of known poses, LH1 or LH2: each sweep at its own instant in one motion model,
-/// stations that contradict the others left out.
+/// stations that contradict the others left out; while two contradict each other nothing is answered.
 ///
 /// Fixed size; 160 kB. push() takes hits in the order of time, gathers them to sweeps and gives the result of the
 /// sweep before when a new one begins.
@@ -70,9 +70,10 @@ class NetworkTracker {
 
   struct StationWatch {
     bool excluded = false;
-    int refused = 0;   // sweeps in a row beyond every model
-    int accepted = 0;  // sweeps in a row that fit
-    int dissents = 0;  // how often more than not it contradicted all others
+    bool disputed = false;  // contradicts the only other one that is heard, until its sweeps fit again
+    int refused = 0;        // sweeps in a row beyond every model
+    int accepted = 0;       // sweeps in a row that fit
+    int dissents = 0;       // how often more than not it contradicted all others
     double seen_s = -1e9;
     std::array<double, kPlanes> plane_s = {-1e9, -1e9};  // of each plane's last sweep
     std::array<Vector3, kPlanes> gradient;               // of its angle by the position then
@@ -101,6 +102,7 @@ class NetworkTracker {
   bool take(const PlaneSweep& sweep, LinearisedSweep& linearised);
   bool fits(const LinearisedSweep& sweep) const;
   void watch(std::size_t station, bool fits, double time_s);
+  bool disputed() const;
   void check_consensus(double time_s);
   double latest_s() const;
   bool try_start(double time_s);
@@ -134,6 +136,7 @@ class NetworkTracker {
   double asked_s_ = -1e9;           // when that was looked for
   double fixed_s_ = -1e9;           // when two stations last agreed with the filter
   double left_out_ = 0.0;           // fraction of the last sweeps' hits that did not fit the others of theirs
+  double resets_ = 0.0;             // fraction of the last sweeps at which the rates were forgotten
   int refused_in_row_ = 0;
   int contradictions_ = 0;     // checks more than not in which no position fits all stations
   bool contradicted_ = false;  // from many contradictions until they are gone

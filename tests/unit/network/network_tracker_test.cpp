@@ -295,6 +295,73 @@ TEST(NetworkTracker, DoesNotAnswerWhereStationsContradictAndItIsNotClearWhichIsW
   }
 }
 
+// Sensors on a hemisphere of 60 mm: its apparent size tells its range, so that one station alone is answered.
+Target dome() {
+  Target target;
+  for (std::uint8_t k = 0; k < 12; ++k) {
+    const double height = (k + 0.5) / 12, radius = std::sqrt(1.0 - height * height), turn = 2.4 * k;
+    target.push_back({k, 0.06 * Vector3(radius * std::cos(turn), radius * std::sin(turn), height), Vector3::UnitZ()});
+  }
+  return target;
+}
+
+// Two stations of which one is moved at 4 s and stands as before from 8 s on.
+struct Disputed {
+  int ok_before = 0, ok_while = 0, ok_after = 0;  // from a second after it was moved, from two after it was put back
+  int beyond = 0;                                 // at any time: answers beyond five of their sigmas
+};
+
+Disputed dispute(Generation generation, std::size_t moved, const Vector6& by) {
+  const Stations known = two_stations(generation);
+  Stations real = known;
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 40e-6);
+  const Target target = dome();
+  const auto tracker = std::make_unique<NetworkTracker>(known, target, NetworkOptions{});
+  Disputed out;
+  const auto take = [&](const std::optional<NetworkResult>& result) {
+    if (!result || !result->pose.ok() || result->ambiguous) return;
+    const double t = result->time_s;
+    if (t < 4.0) ++out.ok_before;
+    if (t > 5.0 && t < 8.0) ++out.ok_while;
+    if (t > 10.0) ++out.ok_after;
+    const Vector3 error = result->pose.value().t - body_at(t).t;
+    if (error.dot(result->covariance.bottomRightCorner<3, 3>().inverse() * error) > 25.0) ++out.beyond;
+  };
+  for (int k = 0; k < 1440; ++k) {
+    if (k == 480) real[moved].T_world_station = real[moved].T_world_station->moved_by(by);
+    if (k == 960) real = known;
+    const std::size_t plane = static_cast<std::size_t>(k % 2), station = static_cast<std::size_t>(k / 2 % 2);
+    for (const SensorPlacement& sensor : target) {
+      const double t = k / 120.0 + 0.002 + 1e-5 * sensor.sensor;
+      const Vector3 p = real[station].T_world_station->inverse() * (body_at(t) * sensor.position_m);
+      take(tracker->push(static_cast<std::uint8_t>(station), plane,
+                         {t, sensor.sensor, raw_angle(real[station], plane, p) + noise(random)}));
+    }
+  }
+  return out;
+}
+
+// Two stations do not tell which of them was moved, and the other may be the wrong one.
+TEST(NetworkTracker, DoesNotAnswerWhileTwoStationsContradictEachOther) {
+  for (const Generation generation : {Generation::kLighthouse1, Generation::kLighthouse2}) {
+    for (std::size_t moved = 0; moved < 2; ++moved) {
+      for (const double metres : {0.02, 0.1, 0.3}) {
+        Vector6 by;
+        by << 0.05, 0.0, 0.0, metres, 0.5 * metres, 0.2 * metres;
+        const Disputed seen = dispute(generation, moved, by);
+        const auto which = testing::Message()
+                           << "LH" << static_cast<int>(generation) << " station " << moved << " " << metres;
+        EXPECT_GT(seen.ok_before, 380) << which;
+        EXPECT_EQ(seen.ok_while, 0) << which;
+        EXPECT_GT(seen.ok_after, 200) << which;
+        // What is moved by little is noticed, at the latest, after the 25 sweeps in a row that a dispute takes.
+        EXPECT_LE(seen.beyond, metres < 0.1 ? 25 : 0) << which;
+      }
+    }
+  }
+}
+
 TEST(NetworkTracker, LeavesOutHitsOfUnknownStationsAndSensors) {
   const Stations stations = two_stations(Generation::kLighthouse2);
   const auto tracker = std::make_unique<NetworkTracker>(stations, deck(), NetworkOptions{});

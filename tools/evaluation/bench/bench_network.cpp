@@ -63,19 +63,26 @@ NetworkFlight network_flight(double duration_s) {
   return flight;
 }
 
+NetworkRun run_network(const NetworkFlight& flight) {
+  const auto tracker =
+      std::make_unique<network::NetworkTracker>(flight.stations, flight.target, network::NetworkOptions{});
+  NetworkRun run;
+  const double spent_s = seconds_of([&] {
+    for (const NetworkBenchHit& one : flight.hits) {
+      const auto result = tracker->push(one.station, one.plane, one.hit);
+      if (result && result->pose.ok()) ++run.answered;
+    }
+  });
+  constexpr double kMicroseconds = 1e6;
+  run.cost_us = spent_s * kMicroseconds / static_cast<double>(flight.hits.size());
+  return run;
+}
+
 std::vector<BenchRow> bench_network() {
   const NetworkFlight flight = network_flight(kNetworkFlight_s);
-  double best_s = 1e9;
-  for (int k = 0; k < kNetworkRepeats; ++k) {
-    const auto tracker =
-        std::make_unique<network::NetworkTracker>(flight.stations, flight.target, network::NetworkOptions{});
-    best_s = std::min(best_s, seconds_of([&] {
-                        for (const NetworkBenchHit& one : flight.hits) tracker->push(one.station, one.plane, one.hit);
-                      }));
-  }
-  constexpr double kMicroseconds = 1e6;
-  const double cost_us = best_s * kMicroseconds / static_cast<double>(flight.hits.size());
-  return {{"stations of a room, a hit, two stations in one model", cost_us, std::nullopt, "us", true}};
+  double best_us = 1e9;
+  for (int k = 0; k < kNetworkRepeats; ++k) best_us = std::min(best_us, run_network(flight).cost_us);
+  return {{"stations of a room, a hit, two stations in one model", best_us, std::nullopt, "us", true}};
 }
 
 }  // namespace pharos::tools

@@ -23,6 +23,13 @@ struct NetworkFlight {
 };
 NetworkFlight network_flight(double duration_s);
 
+/// A run through all hits of a flight.
+struct NetworkRun {
+  double cost_us = 0.0;  // a hit
+  int answered = 0;      // sweeps
+};
+NetworkRun run_network(const NetworkFlight& flight);
+
 /// Cost of `pharos track --sweeps` with two stations, microseconds a hit on one core, everything included.
 std::vector<BenchRow> bench_network();
 

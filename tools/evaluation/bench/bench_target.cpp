@@ -8,6 +8,7 @@
 #include "pharos/base/ticks.hpp"
 #include "tools/evaluation/bench/bench_cpu_load.hpp"
 #include "tools/evaluation/bench/bench_decode.hpp"
+#include "tools/evaluation/bench/bench_network.hpp"
 #include "tools/evaluation/bench/target_images.hpp"
 #include "tools/evaluation/bench/target_input.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr double kCoreHz = 50e6;
 constexpr int kTargetSensors = 12;
 constexpr int kFromNothing = 50;
+constexpr double kNetwork_s = 2.0;
 // Cycles an instruction: of `decoder` on the simulated chip (firmware/rtl/soc); and with code in external memory,
 // assumed.
 constexpr double kMeasuredCycles = 1.67;
@@ -123,6 +125,20 @@ void add_motion(const std::filesystem::path& images, Rows& rows) {
   rows.add("motion tracker object", of(motion, "tracker_bytes"), std::nullopt, "bytes");
 }
 
+// The same poses on both sides; the start and the checks are in the mean.
+void add_network(const std::filesystem::path& images, Rows& rows) {
+  const NetworkFlight flight = network_flight(kNetwork_s);
+  const TargetFigures network = run_image(images, "measure_network", network_hits(flight));
+  const NetworkRun host = run_network(flight);
+  rows.add("stations of a room: instructions a hit of two stations: mean",
+           of(network, "hit_sum") / of(network, "hit_number"), std::nullopt, "instructions", host.cost_us, "us");
+  rows.add("stations of a room: instructions a sweep: median", of(network, "sweep_median"), std::nullopt,
+           "instructions");
+  rows.add("stations of a room: instructions a sweep: worst", of(network, "sweep_worst"), std::nullopt, "instructions");
+  rows.add("stations of a room: sweeps answered", of(network, "answered"), std::nullopt, "", host.answered, "");
+  rows.add("tracker of a room: object", of(network, "tracker_bytes"), std::nullopt, "bytes");
+}
+
 // Light of Lighthouse 2.0, once a block in logic delivers the changes.
 void add_lh2(const std::filesystem::path& images, Rows& rows) {
   const TargetFigures lh2 = run_image(images, "measure_lh2", simulated_light(1));
@@ -158,6 +174,7 @@ std::vector<TargetRow> bench_target(const TargetBench& options) {
       pose_problems(test::frustum_target(), 8, 8, options.problems, std::min(options.problems, kFromNothing));
   add_poses(run_image(images, "measure_pose", input.bytes), input, rows);
   add_motion(images, rows);
+  add_network(images, rows);
   add_lh2(images, rows);
   add_fractions(simulated, rows);
   add_flying(images, rows);

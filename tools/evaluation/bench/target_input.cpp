@@ -106,7 +106,8 @@ std::vector<lighthouse::RawPulse> pulses_of(sim::LighthouseSimulator& simulator)
   return pulses;
 }
 
-bench::PoseRow row_of(const LighthouseFromBody& pose) {
+template <class Parent, class Child>
+bench::PoseRow row_of(const Pose<Parent, Child>& pose) {
   bench::PoseRow row;
   for (int i = 0; i < 9; ++i) row.rotation[static_cast<std::size_t>(i)] = pose.R(i / 3, i % 3);
   for (int i = 0; i < 3; ++i) row.position_m[static_cast<std::size_t>(i)] = pose.t[i];
@@ -176,6 +177,26 @@ std::vector<char> simulated_light(int sensors) {
     append(bytes, row);
   }
   append_edges(bytes, edges);
+  return bytes;
+}
+
+std::vector<char> network_hits(const NetworkFlight& flight) {
+  std::vector<char> bytes;
+  bench::NetworkHeader header;
+  header.sensors = static_cast<std::uint32_t>(flight.target.size());
+  header.stations = static_cast<std::uint32_t>(flight.stations.size());
+  header.hits = static_cast<std::uint32_t>(flight.hits.size());
+  append(bytes, header);
+  append_target(bytes, flight.target);
+  for (const network::Station& station : flight.stations) {
+    const network::StationSigmas sigmas = station.sigmas.value_or(network::kUnstatedSigmas);
+    append(bytes, bench::NetworkStationRow{row_of(*station.T_world_station), sigmas.rotation_rad, sigmas.position_m,
+                                           sigmas.plane_rad});
+  }
+  for (const NetworkBenchHit& one : flight.hits) {
+    append(bytes, bench::HitRow{one.hit.time_s, one.hit.angle_rad,
+                                one.hit.sensor | std::uint64_t{one.plane} << 8U | std::uint64_t{one.station} << 16U});
+  }
   return bytes;
 }
 

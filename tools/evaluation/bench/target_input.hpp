@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pharos/geometry/target.hpp"
+#include "tools/evaluation/bench/bench_network.hpp"
 #include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::tools {
@@ -20,8 +21,11 @@ std::vector<char> recorded_light(const std::string& edges);
 /// stations' OOTX, so that poses are computed.
 std::vector<char> simulated_light(int sensors);
 
-/// The same light in the form of the emulated capture block (sim::CaptureFeed), to a core of so many cycles an
-/// instruction.
+/// A flight's hits in the format of measure_network.
+std::vector<char> network_hits(const NetworkFlight& flight);
+
+/// The light of `simulated_light` in the form of the emulated capture block (sim::CaptureFeed), to a core of so many
+/// cycles an instruction.
 std::vector<char> simulated_words(int sensors, double cycles);
 
 /// Pose problems in the format of measure_pose, with a prior of a cycle's motion and the host's result. The last
