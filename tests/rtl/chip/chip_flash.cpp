@@ -85,6 +85,10 @@ int run(const ChipKind& chip, const std::vector<std::string>& images, const std:
                 started.runs.c_str(), refusal.c_str());
     std::fflush(stdout);
   }
+  for (const std::string& violation : bench.sdram().violations()) {
+    std::fprintf(stderr, "FAILED: SDRAM: %s\n", violation.c_str());
+  }
+  if (!bench.sdram().violations().empty()) return 3;
   return refused == 0 ? 0 : 1;
 }
 
@@ -98,7 +102,7 @@ int main(int count, char** values) {
   std::string chip = pharos::rtl::kChips.front().name;
   CLI::App app{
       "Flashes images one after the other into the simulated chip by its loader, and starts each: a row each.\n"
-      "Exit code: 1 where one was refused.\n"
+      "Exit code: 1 where one was refused, 3 where the SDRAM was used against its rules.\n"
       "Example: chip_flash decoder.ep4ce10.image --loader ep4ce10_loader.bin --verifier verifier.bin"};
   app.add_option("IMAGE", images, "images of `pharos flash`")->required();
   app.add_option("--loader", loader, "bytes of the boot ROM")->required();

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """usage: quartus_project.py FIRMWARE_RTL STUB: holds the vendor's project (firmware/rtl/ep4ce10) to the Verilog. Every source is listed
 and there, and nothing else; every bit of a port has one pin, which no other has and which the package has for it; clock constraint,
-PLL and the chip's constant agree; Verilator elaborates the listed files. Each rule is seen to fail on a planted fault. 77 = skipped."""
+PLL and the chip's constant agree; every port has its time limited, the SDRAM's by its sheet; Verilator elaborates the listed files.
+Each rule is seen to fail on a planted fault. 77 = skipped."""
 
 import pathlib
 import re
@@ -21,6 +22,9 @@ USER_PINS = {
     "P": "1 2 3 6 8 9 11 14 15 16", "R": "1 3 4 5 6 7 8 9 10 11 12 13 14 16", "T": "2 3 4 5 6 7 8 9 10 11 12 13 14 15"}
 PINS = {row + number for row, numbers in USER_PINS.items() for number in numbers.split()}
 INPUT_ONLY = {"E1", "E15", "E16", "M1", "M2", "M15", "M16"}  # dedicated clock inputs
+# The slowest of the sheets that README names, CAS latency 2; the longest line on the board.
+SDRAM_NS = {"access": 6.0, "output_hold": 2.5, "setup": 2.0, "hold": 1.0}
+LINE_NS = 0.5
 PORT = re.compile(r"^\s*(input|output|inout)\s+wire\s*(?:\[\s*(\d+):0\])?\s*(\w+)", re.MULTILINE)
 GLOBAL = re.compile(r'^set_global_assignment -name (\w+) "?([^"\n]+)"?$', re.MULTILINE)
 LOCATION = re.compile(r"^set_location_assignment PIN_(\w+) -to (\S+)$", re.MULTILINE)
@@ -31,6 +35,41 @@ def ports(verilog):
     """Name of each bit -> direction."""
     return {name if high == "" else f"{name}[{bit}]": way for way, high, name in PORT.findall(verilog)
             for bit in range(int(high or 0) + 1)}
+
+
+def limited(limits, bits):
+    """(bit, "to" or "from" it, "max" or "min") of every bit whose time is limited, or told not to matter."""
+    done = set()
+    for command, options, names in re.findall(r"^set_(\w+) (.*?)\[get_ports \{?([^\n}]*?)\}?\][ \d.]*$", limits, re.MULTILINE):
+        way = {"output_delay": "to", "input_delay": "from"}.get(command) or options.split()[0][1:]
+        kinds = ("max", "min") if command == "false_path" else re.findall("max|min", f"{command} {options}")
+        bases = names.replace("[*]", "").split()
+        done |= {(bit, way, kind) for bit in bits for kind in kinds if bit.split("[")[0] in bases}
+    return done
+
+
+def timing_objections(limits, bits, board, phase_ns, period_ns):
+    constant = set(re.findall(r"assign (\w+) = 1'b[01];", board))
+    there = limited(limits, bits)
+    for bit, way in bits.items():
+        if bit.split("[")[0] in constant or f"[get_ports {bit}]" in "".join(re.findall(r"^create_.*$", limits, re.MULTILINE)):
+            continue
+        for side, absent in (("to", way == "input"), ("from", way == "output")):
+            yield from (f"{bit} has no {kind} delay {side} it" for kind in ("max", "min") if not absent and (bit, side, kind) not in there)
+    delay = {(way, kind): float(ns) for way, kind, ns in
+             re.findall(r"^set_(input|output)_delay -clock sdram_clock -(max|min) (-?[\d.]+) ", limits, re.MULTILINE)}
+    if delay != {("input", "max"): SDRAM_NS["access"] + 2 * LINE_NS, ("input", "min"): SDRAM_NS["output_hold"],
+                 ("output", "max"): SDRAM_NS["setup"] + LINE_NS, ("output", "min"): -SDRAM_NS["hold"] - LINE_NS}:
+        yield f"the SDRAM's delays are not those of its sheet: {delay}"
+        return
+    if "set_multicycle_path -setup 2 -from [get_clocks sdram_clock]" not in limits:
+        yield "the SDRAM's data are not taken at the second edge"
+    # What is left for the ways through the chip's pins: of a command or data beside the clock, of the clock and data one after the other.
+    left = {"commands at the latest": period_ns - phase_ns - delay["output", "max"], "commands at the earliest": phase_ns + delay["output", "min"],
+            "data at the latest": period_ns + phase_ns - delay["input", "max"], "data at the earliest": delay["input", "min"] - phase_ns}
+    for name, least in (("commands at the latest", 10), ("commands at the earliest", 1), ("data at the latest", 15), ("data at the earliest", -1)):
+        if left[name] < least:
+            yield f"SDRAM, {name}: {left[name]} ns left"
 
 
 def objections(rtl):
@@ -52,7 +91,8 @@ def objections(rtl):
         if not (folder / file).exists():
             yield f"{file} is not there"
 
-    bits = ports((folder / f"{TOP}.v").read_text())
+    board = (folder / f"{TOP}.v").read_text()
+    bits = ports(board)
     places = LOCATION.findall(settings)
     for bit, way in bits.items():
         pins = [pin for pin, port in places if port == bit]
@@ -75,6 +115,8 @@ def objections(rtl):
         yield f"a period of {period[1]} ns is not that of {rate} Hz"
     if number["inclk0_input_frequency"] * rate != 10**12 or any(number[f"clk{i}_multiply_by"] != number[f"clk{i}_divide_by"] for i in (0, 1)):
         yield f"the PLL does not make {rate} Hz of its input"
+    phase = re.search(r'\.clk1_phase_shift\("-(\d+)"\)', pll)
+    yield from timing_objections(limits, bits, board, int(phase[1]) / 1000 if phase else 0.0, 1e9 / rate)
     yield from (f"{port} in pharos.sdc is no port" for group in re.findall(r"get_ports \{?([^\]}]*(?:\[\*\][^\]}]*)*)", limits)
                 for port in re.findall(r"[a-z_0-9]+", group.replace("[*]", "")) if not any(bit.split("[")[0] == port for bit in bits))
     if shutil.which("verilator") and all(path.exists() for path in listed):
@@ -96,6 +138,12 @@ FAULTS = (  # file, text, replacement
     ("ep4ce10/pharos.sdc", "get_ports flash_in]", "get_ports flash_input]"),
     ("ep4ce10/chip_pll.v", ".clk0_multiply_by(1)", ".clk0_multiply_by(2)"),
     ("ep4ce10/chip_pll.v", ".clk1_divide_by(1)", ".clk1_divide_by(2)"),
+    ("ep4ce10/pharos.sdc", "-max 7.000", "-max 6.400"),
+    ("ep4ce10/pharos.sdc", "-min -1.500 [get_ports {sdram_ras_n ", "-min -1.500 [get_ports {"),
+    ("ep4ce10/pharos.sdc", "set_multicycle_path -setup 2", "set_multicycle_path -setup 1"),
+    ("ep4ce10/pharos.sdc", "uart_transmit leds", "leds"),
+    ("ep4ce10/chip_pll.v", '("-3000")', '("-9000")'),
+    ("ep4ce10/chip_pll.v", '("-3000")', '("0")'),
     ("ep4ce10/pharos.qsf", "PIN_B14 -to sdram_clock\n", "PIN_M1 -to sdram_clock\n"),
     ("ep4ce10/ep4ce10_board.v", "output wire [ 3:0] leds", "output wire [ 4:0] leds"),
     ("soc/pharos_chip.v", ".CLOCK_HZ(50000000)", ".CLOCK_HZ(48000000)"),
