@@ -21,11 +21,16 @@ constexpr double kSideGate = 2.0;
 // What one connector can say at most for or against a turn, as the logarithm of odds. One that is absent in plain sight
 // says less: bodies differ from drawings, and any one connector gives the turn.
 constexpr double kMaxFor = 15.0;
+// One whose edges could not be fitted: depth alone tells its sides to a cell and its height to centimetres, which
+// look-alikes of other kinds pass.
+constexpr double kMaxForByDepth = 3.0;
 constexpr double kMaxAgainst = 10.0;
 // Turns closer than this are one, rad.
 constexpr double kSameTurn_rad = 0.05;
 // DESIGN's bound on the second minimum's chi-squared.
 constexpr double kAmbiguous = 9.21;
+// That none of the described connectors is seen explains the boxes as well: a turn must be more likely by as much.
+constexpr double kMinLogOdds = 0.5 * kAmbiguous;
 
 struct Hypothesis {
   std::size_t seen = 0;
@@ -48,7 +53,7 @@ class TurnFinder {
     propose();
     const Hypothesis* best = nullptr;
     for (const Hypothesis& one : hypotheses_) {
-      if (one.log_odds > 0.0 && (best == nullptr || better(one, *best))) best = &one;
+      if (one.log_odds > kMinLogOdds && (best == nullptr || better(one, *best))) best = &one;
     }
     if (best == nullptr) return std::nullopt;
     const Hypothesis* second = nullptr;
@@ -139,15 +144,21 @@ class TurnFinder {
     for (const DescribedConnector& described : target_.connectors) {
       const Vector2 place(c * described.place_m.x() - s * described.place_m.y(),
                           s * described.place_m.x() + c * described.place_m.y());
-      sum += stands_at(place, described) ? kMaxFor : std::clamp(evidence_at(place, described), -kMaxAgainst, 0.0);
+      const double standing = standing_at(place, described);
+      sum += standing > 0.0 ? standing : std::clamp(evidence_at(place, described), -kMaxAgainst, 0.0);
     }
     return sum;
   }
-  bool stands_at(const Vector2& place, const DescribedConnector& described) const {
-    return std::any_of(faces_.begin(), faces_.end(), [&](const ConnectorFace& face) {
+  // What the connector seen there says for the turn; 0 where none is.
+  double standing_at(const Vector2& place, const DescribedConnector& described) const {
+    double most = 0.0;
+    for (const ConnectorFace& face : faces_) {
       // The turn is that of one of them, whose own error moves the others' places.
-      return could_be(face, described) && (face.rectangle.centre_m - place).norm() < 2.0 * gate_m(face, described);
-    });
+      if (!could_be(face, described) || (face.rectangle.centre_m - place).norm() > 2.0 * gate_m(face, described))
+        continue;
+      most = std::max(most, face.edge_points > 0 ? kMaxFor : kMaxForByDepth);
+    }
+    return most;
   }
   // In the ring's plane a face appears where its ray meets it.
   double evidence_at(const Vector2& place, const DescribedConnector& described) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/vision/pointing/panel_measurement.hpp"
+#include "host/vision/pointing/plane_region.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::pointing {
@@ -25,6 +26,8 @@ constexpr double kMaxSquareSigma_rad = 3.0 * kRadPerDeg;
 constexpr double kMinThirdEdge = 0.15;
 constexpr double kThirdEdgeReach_px = 4.0;
 constexpr double kThirdEdgeOff = 0.02;  // of the panel's length: what lens and fit leave of one line
+constexpr double kMaxSlackOfWidth = 0.5;
+constexpr double kOneLine_px = 1.0;  // what a wing's hinges and lens leave of one line, measured
 // Pieces of one edge that are nearer were joined; a body between a wing's panels is wider.
 constexpr double kMinGap_px = 10.0;
 constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
@@ -96,7 +99,9 @@ bool settle_sides(const EdgePair& pair, const PanelSides& measured, const Pinhol
   std::swap(panel.long_planes, panel.short_planes);
   std::swap(panel.long_edges, panel.short_edges);
   lone.sides = {measured.ends[0].extent, measured.ends[1].extent};
-  return true;
+  // Known by the other axis, of which the sigma may be another.
+  const auto swapped = aspect_in_space(panel, camera);
+  return !swapped || swapped->minimum >= kMinAspect;
 }
 
 // A panel that runs across the body leaves two pieces of its width on either side, as a wing's panels do. Its ends are
@@ -196,7 +201,12 @@ class Chooser {
     if (h.axis.sigma_rad() > kUnsureSigma_rad) return true;
     if (is_interrupted(h)) return false;
     const auto square = square_of(h.measurement, h.axis);
-    return (square && square->sigma_rad < kMaxSquareSigma_rad) || is_in_line(h);
+    return (square && square->sigma_rad < kMaxSquareSigma_rad) || is_in_line(h) || is_end_of_plane(h);
+  }
+
+  // A plane region with one end. That end tests nothing by itself: a direction square to the axis lies in any plane.
+  bool is_end_of_plane(const Hypothesis& h) const {
+    return !h.measurement.short_planes.empty() && is_one_plane(image_, target_, h.pairs.front());
   }
 
   // Two panels on one axis, or one and an edge of another.
@@ -223,9 +233,10 @@ class Chooser {
   // In line with an edge and beyond its end.
   static bool is_beyond(const Segment& edge, const Segment& own) {
     const double at = own.station(edge.middle());
-    const double slack = kThirdEdgeReach_px + kThirdEdgeOff * own.length();
-    return (at < 0.0 || at > own.length()) && std::abs(own.offset(edge.middle())) < slack;
+    return (at < 0.0 || at > own.length()) && std::abs(own.offset(edge.middle())) < line_slack_px(own);
   }
+
+  static double line_slack_px(const Segment& own) { return kThirdEdgeReach_px + kThirdEdgeOff * own.length(); }
 
   // An edge in line with one of the panel's own that runs along its axis: the other panel's, where that is half hidden.
   bool is_third(const Hypothesis& h, const Segment& edge) const {
@@ -233,31 +244,45 @@ class Chooser {
     if (edge.length() < kMinThirdEdge * pair.middle.length()) return false;
     const auto is_own = [&](const Segment& own) { return edge.begin == own.begin && edge.end == own.end; };
     if (is_own(pair.first) || is_own(pair.second)) return false;
+    // As near to a narrow pair's other side, or to anything that hides its end, it is in line by accident: a boom's.
+    if (line_slack_px(pair.middle) > kMaxSlackOfWidth * pair.separation) return false;
     // In line with one of them and beyond its end: beside it a body's edges are as parallel.
     if (!is_beyond(edge, pair.first) && !is_beyond(edge, pair.second)) return false;
     const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);
     if (!side || side->fit.length_px() < kMinThirdEdge * pair.middle.length()) return false;
+    if (!is_in_line_with_a_side(h, side->fit)) return false;
     const AxisPlane plane = plane_of_line(side->fit.line, camera_);
     // An edge whose own direction is open would lie along anything.
     return plane.sigma_rad(h.axis.axis) < kMaxSquareSigma_rad && lies_along(plane, h.axis);
   }
 
+  // The outline's slack holds what is in line by accident; a wing's edges are one straight line, once measured.
+  bool is_in_line_with_a_side(const Hypothesis& h, const LineFit& edge) const {
+    const Vector3 ray = ray_of(0.5 * (edge.begin_px + edge.end_px)).normalized();
+    return std::any_of(h.measurement.long_planes.begin(), h.measurement.long_planes.end(), [&](const AxisPlane& own) {
+      const double slack_rad = kOneLine_px / camera_.fx_px;
+      return std::abs(own.normal.dot(ray)) < kMaxSigmas * own.sigma_rad(ray) + slack_rad;
+    });
+  }
+
+  // In the ideal image.
+  Vector3 ray_of(const Vector2& place) const {
+    return {(place.x() - camera_.cx_px) / camera_.fx_px, (place.y() - camera_.cy_px) / camera_.fy_px, 1.0};
+  }
+
   // A pair that the border cuts, or of which a side is no straight line, has no axis. Where it does not continue the
   // lone best one as a wing's other panel, it may be the panel instead.
   static bool has_rival_of(const std::vector<EdgePair>& pairs, double min_length, const Hypothesis& best) {
-    const Segment& middle = best.pairs.front().middle;
+    // Its long sides in space may be the short ones in the image.
     return best.pairs.size() == 1 && std::any_of(pairs.begin(), pairs.end(), [&](const EdgePair& pair) {
-             return pair.middle.length() > min_length * middle.length() &&
-                    std::abs(pair.middle.along().dot(middle.along())) < std::cos(kMaxTurnOfWing_rad);
+             return pair.middle.length() > min_length * best.score &&
+                    std::abs(pair.middle.along().dot(best.sides[0].along())) < std::cos(kMaxTurnOfWing_rad);
            });
   }
 
   bool is_along_sight(const Hypothesis& h) const {
     if (h.axis.sigma_rad() > kUnsureSigma_rad) return false;
-    const Vector2 middle = h.pairs.front().middle.middle();
-    const Vector3 sight((middle.x() - camera_.cx_px) / camera_.fx_px, (middle.y() - camera_.cy_px) / camera_.fy_px,
-                        1.0);
-    return angle_of(sight, h.axis.axis) < kMinFromSight_rad;
+    return angle_of(ray_of(h.pairs.front().middle.middle()), h.axis.axis) < kMinFromSight_rad;
   }
 
   static bool is_rival(const Hypothesis& best, const Hypothesis& other) {

@@ -15,8 +15,6 @@ using pointing::EdgePoint;
 using pointing::LineFit;
 
 constexpr double kOneLineChi2 = 18.0;  // of two edges as one line, two degrees of freedom: 99.99 %
-// An axis within this is taken as measured.
-constexpr double kSureSigma_rad = 5.0 * kRadPerDeg;
 
 // Of the shift that the structure beside an edge could make, what bends the line at its ends: a strip of one width in
 // space shifts an edge towards the same vanishing point, but for what blur leaves. Of 140 edges of 40 random satellites
@@ -124,10 +122,6 @@ std::optional<AspectRange> aspect_in_space(const PanelMeasurement& panel, const 
   if (panel.short_planes.empty()) return std::nullopt;
   const auto axis = pointing::estimate_axis({panel.long_planes.data(), panel.long_planes.size()});
   if (!axis || axis->sigma_rad() > kUnsureSigma_rad) return std::nullopt;
-  if (axis->sigma_rad() < kSureSigma_rad) {
-    const double aspect = aspect_along(axis->axis, panel, camera);
-    return AspectRange{aspect, aspect};
-  }
   constexpr int kHalf = 4;
   constexpr double kSigmas = 2.0;
   AspectRange range{1e9, 0.0};

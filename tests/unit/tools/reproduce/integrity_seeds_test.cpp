@@ -24,10 +24,11 @@ void expect_no_failure(const std::string& name, std::initializer_list<std::uint6
 
 // A boom, a rail and bodies' outlines, taken for the panel; a panel's edge and a body's in line; panels seen along
 // their axis, whose width was taken for it, across the body as a wing; a body's outline that a panel interrupts;
-// a body's face beside a panel that the border cuts, and beside one of which only one side is measured.
+// a body's face beside a panel that the border cuts, and beside one of which only one side is measured; a boom with
+// an edge in line; a width taken for the length where the axis is known to some degrees.
 TEST(IntegritySeeds, Line) {
-  expect_no_failure(
-      "line", {62, 108, 220, 244, 1039, 1251, 1430, 1446, 3378, 60259, 60665, 60891, 61369, 200023, 200314, 300074});
+  expect_no_failure("line", {62, 108, 220, 244, 1039, 1251, 1430, 1446, 3378, 60259, 60665, 60891, 61369, 200023,
+                             200314, 300074, 300237, 400097});
 }
 
 // Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them.
@@ -36,8 +37,8 @@ TEST(IntegritySeeds, Ellipses) {
 }
 
 // A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster or
-// a cover for a connector behind a boom.
-TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061, 123135}); }
+// a cover for a connector behind a boom; a small ring, of which depth alone tells the size, for a described connector.
+TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061, 123135, 202518}); }
 
 // The foot of a ring, the edge of a round body, whose nozzle the ring was taken for, a small ring beside it, a groove;
 // two bodies with a second ring.

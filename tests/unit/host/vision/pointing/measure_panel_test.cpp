@@ -172,6 +172,39 @@ TEST(MeasurePanel, ABodysOutlineDoesNotAnswerForAPanelThatNothingConfirms) {
   }
 }
 
+// A panel that its body hides at one end: a round shape before it.
+host::GreyImage with_a_hidden_end(const PaintedPanel& panel, host::GreyImage image) {
+  const auto whole = measure_panel(image.view(), panel.camera);
+  EXPECT_TRUE(whole.ok());
+  if (whole) paint_disc(whole->short_edges[0].middle(), 0.53 * whole->short_edges[0].length(), image);
+  return image;
+}
+
+TEST(MeasurePanel, APlaneRegionWithOneEndIsAPanel) {
+  const PaintedPanel panel = near_panel(0.95);
+  const auto hidden = measure_panel(with_a_hidden_end(panel, panel.image()).view(), panel.camera);
+  ASSERT_TRUE(hidden.ok()) << name_of(hidden.error());
+  EXPECT_EQ(hidden->short_planes.size(), 1u);
+  const PointingResult answer = answer_of(*hidden, panel.sight);
+  EXPECT_FALSE(answer.second_axis.has_value());
+  EXPECT_LT(angle_between(answer.axis.axis, panel.axis_station), 5.0 * answer.axis.sigma_rad());
+}
+
+// Two faces of a body, whose light differs by less than what tells one of its sides from the other.
+TEST(MeasurePanelRefuses, TwoFacesWithOneEnd) {
+  const PaintedPanel body = near_panel(0.95);
+  host::GreyImage image = body.image();
+  const Vector2 across(-std::sin(0.4), std::cos(0.4));
+  for (int v = 0; v < image.height_px; ++v) {
+    for (int u = 0; u < image.width_px; ++u) {
+      auto& pixel = image.pixels[static_cast<std::size_t>(v) * 512 + static_cast<std::size_t>(u)];
+      if (across.dot(Vector2(u - 255.5, v - 255.5)) > 0.0 && pixel > 1800)
+        pixel = static_cast<std::uint16_t>(600.0 + 1.3 * (pixel - 600.0));
+    }
+  }
+  EXPECT_EQ(refusal_of(with_a_hidden_end(body, image), body.camera), PointingRefusal::kNoPanel);
+}
+
 // Long and thin, without ends that could be measured: an axis to some degrees that nothing confirms.
 TEST(MeasurePanelRefuses, ABoom) {
   PaintedPanel boom = near_panel(0.5);

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/pointing/plane_region.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pharos::pointing {
+namespace {
+
+constexpr int kBlocks = 6;    // along and across
+constexpr int kSamples = 12;  // of a block, along and across
+// Of the distance between the edges, and between the ends: blur, a frame and rounded corners are outside.
+constexpr double kClearOfSides = 0.1;
+constexpr double kClearOfEnds = 0.04;
+// Below it blur reaches every block.
+constexpr double kMinWidth_px = 16.0;
+// Of a block's brightness over the sky from the middle one's. Two faces of a body whose light differs by less look like
+// one plane.
+constexpr double kMaxDeparture = 0.1;
+constexpr double kMinAlike = 0.85;  // of all blocks
+
+double median_of(double* begin, double* end) {
+  double* middle = begin + (end - begin) / 2;
+  std::nth_element(begin, middle, end);
+  return *middle;
+}
+
+// Places of the strip: both coordinates from 0 to 1, along the pair and from one edge to the other.
+class Strip {
+ public:
+  explicit Strip(const EdgePair& pair) : pair_(pair), across_(pair.middle.across()) {}
+
+  Vector2 at(double along, double across) const {
+    const Vector2 middle = pair_.middle.begin + along * (pair_.middle.end - pair_.middle.begin);
+    const Vector2 one = on(pair_.first, middle), other = on(pair_.second, middle);
+    return one + across * (other - one);
+  }
+
+ private:
+  Vector2 on(const Segment& edge, const Vector2& middle) const {
+    return middle - edge.offset(middle) / edge.across().dot(across_) * across_;
+  }
+  const EdgePair& pair_;
+  Vector2 across_;
+};
+
+// Median of the samples around a block's middle.
+double level_of_block(ImageView<const std::uint16_t> image, const Strip& strip, int i, int k) {
+  std::array<double, kSamples * kSamples> grey{};
+  std::size_t count = 0;
+  constexpr int kSteps = kBlocks * kSamples;
+  for (int a = 0; a < kSamples; ++a) {
+    for (int b = 0; b < kSamples; ++b) {
+      const double along = (i * kSamples + a + 0.5) / kSteps, across = (k * kSamples + b + 0.5) / kSteps;
+      const Vector2 place = strip.at(kClearOfEnds + (1.0 - 2.0 * kClearOfEnds) * along,
+                                     kClearOfSides + (1.0 - 2.0 * kClearOfSides) * across);
+      const auto u = std::clamp(static_cast<std::int32_t>(std::lround(place.x())), 0, image.width_px - 1);
+      const auto v = std::clamp(static_cast<std::int32_t>(std::lround(place.y())), 0, image.height_px - 1);
+      grey[count++] = image.row(v)[u];
+    }
+  }
+  return median_of(grey.data(), grey.data() + count);
+}
+
+}  // namespace
+
+bool is_one_plane(ImageView<const std::uint16_t> image, const TargetMask& target, const EdgePair& pair) {
+  if (pair.separation < kMinWidth_px) return false;
+  const Strip strip(pair);
+  std::array<double, kBlocks * kBlocks> levels{};
+  std::size_t count = 0;
+  for (int i = 0; i < kBlocks; ++i) {
+    for (int k = 0; k < kBlocks; ++k) levels[count++] = level_of_block(image, strip, i, k) - target.sky;
+  }
+  const double level = median_of(levels.data(), levels.data() + count);
+  const auto alike = std::count_if(levels.begin(), levels.end(),
+                                   [&](double one) { return std::abs(one - level) < kMaxDeparture * level; });
+  return static_cast<double>(alike) >= kMinAlike * static_cast<double>(count);
+}
+
+}  // namespace pharos::pointing
