@@ -19,6 +19,11 @@ constexpr double kMinWidth_px = 16.0;
 // one plane.
 constexpr double kMaxDeparture = 0.1;
 constexpr double kMinAlike = 0.85;  // of all blocks
+// Along each edge, within this of the distance between the edges; one block for what a cell's border or a hinge
+// darkens.
+constexpr int kBlocksOfSide = 12;
+constexpr int kMinAlikeOfSide = 11;
+constexpr double kSideBand = 0.3;
 
 double median_of(double* begin, double* end) {
   double* middle = begin + (end - begin) / 2;
@@ -45,6 +50,12 @@ class Strip {
   Vector2 across_;
 };
 
+double grey_at(ImageView<const std::uint16_t> image, const Vector2& place) {
+  const auto u = std::clamp(static_cast<std::int32_t>(std::lround(place.x())), 0, image.width_px - 1);
+  const auto v = std::clamp(static_cast<std::int32_t>(std::lround(place.y())), 0, image.height_px - 1);
+  return image.row(v)[u];
+}
+
 // Median of the samples around a block's middle.
 double level_of_block(ImageView<const std::uint16_t> image, const Strip& strip, int i, int k) {
   std::array<double, kSamples * kSamples> grey{};
@@ -55,12 +66,32 @@ double level_of_block(ImageView<const std::uint16_t> image, const Strip& strip, 
       const double along = (i * kSamples + a + 0.5) / kSteps, across = (k * kSamples + b + 0.5) / kSteps;
       const Vector2 place = strip.at(kClearOfEnds + (1.0 - 2.0 * kClearOfEnds) * along,
                                      kClearOfSides + (1.0 - 2.0 * kClearOfSides) * across);
-      const auto u = std::clamp(static_cast<std::int32_t>(std::lround(place.x())), 0, image.width_px - 1);
-      const auto v = std::clamp(static_cast<std::int32_t>(std::lround(place.y())), 0, image.height_px - 1);
-      grey[count++] = image.row(v)[u];
+      grey[count++] = grey_at(image, place);
     }
   }
   return median_of(grey.data(), grey.data() + count);
+}
+
+// Whether an edge borders the plane over all of its length, also where the other one has ended: a body's edge goes on
+// along its next face.
+bool borders_plane(ImageView<const std::uint16_t> image, const EdgePair& pair, const Segment& edge, double sky,
+                   double level) {
+  const double inwards = edge.offset(pair.middle.middle()) > 0.0 ? 1.0 : -1.0;
+  int alike = 0;
+  for (int i = 0; i < kBlocksOfSide; ++i) {
+    std::array<double, kSamples * kSamples> grey{};
+    std::size_t count = 0;
+    for (int a = 0; a < kSamples; ++a) {
+      const double along = (i * kSamples + a + 0.5) / (kBlocksOfSide * kSamples);
+      const Vector2 foot = edge.begin + (kClearOfEnds + (1.0 - 2.0 * kClearOfEnds) * along) * (edge.end - edge.begin);
+      for (int b = 0; b < kSamples; ++b) {
+        const double depth = kClearOfSides + (kSideBand - kClearOfSides) * (b + 0.5) / kSamples;
+        grey[count++] = grey_at(image, foot + inwards * depth * pair.separation * edge.across());
+      }
+    }
+    alike += std::abs(median_of(grey.data(), grey.data() + count) - sky - level) < kMaxDeparture * level ? 1 : 0;
+  }
+  return alike >= kMinAlikeOfSide;
 }
 
 }  // namespace
@@ -76,7 +107,9 @@ bool is_one_plane(ImageView<const std::uint16_t> image, const TargetMask& target
   const double level = median_of(levels.data(), levels.data() + count);
   const auto alike = std::count_if(levels.begin(), levels.end(),
                                    [&](double one) { return std::abs(one - level) < kMaxDeparture * level; });
-  return static_cast<double>(alike) >= kMinAlike * static_cast<double>(count);
+  return static_cast<double>(alike) >= kMinAlike * static_cast<double>(count) &&
+         borders_plane(image, pair, pair.first, target.sky, level) &&
+         borders_plane(image, pair, pair.second, target.sky, level);
 }
 
 }  // namespace pharos::pointing

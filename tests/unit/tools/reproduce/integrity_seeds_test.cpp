@@ -28,7 +28,7 @@ void expect_no_failure(const std::string& name, std::initializer_list<std::uint6
 // an edge in line; a width taken for the length where the axis is known to some degrees.
 TEST(IntegritySeeds, Line) {
   expect_no_failure("line", {62, 108, 220, 244, 1039, 1251, 1430, 1446, 3378, 60259, 60665, 60891, 61369, 200023,
-                             200314, 300074, 300237, 400097});
+                             200314, 300074, 300237, 400097, 430006});
 }
 
 // Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them.
