@@ -56,21 +56,20 @@ double grey_at(ImageView<const std::uint16_t> image, const Vector2& place) {
   return image.row(v)[u];
 }
 
-// Median of the samples around a block's middle.
-double level_of_block(ImageView<const std::uint16_t> image, const Strip& strip, int i, int k) {
+// Median of a block's samples; `place` tells where one is of its place in the block, from 0 to 1 along and across.
+template <class Place>
+double level_of_block(ImageView<const std::uint16_t> image, Place place) {
   std::array<double, kSamples * kSamples> grey{};
   std::size_t count = 0;
-  constexpr int kSteps = kBlocks * kSamples;
   for (int a = 0; a < kSamples; ++a) {
-    for (int b = 0; b < kSamples; ++b) {
-      const double along = (i * kSamples + a + 0.5) / kSteps, across = (k * kSamples + b + 0.5) / kSteps;
-      const Vector2 place = strip.at(kClearOfEnds + (1.0 - 2.0 * kClearOfEnds) * along,
-                                     kClearOfSides + (1.0 - 2.0 * kClearOfSides) * across);
-      grey[count++] = grey_at(image, place);
-    }
+    for (int b = 0; b < kSamples; ++b)
+      grey[count++] = grey_at(image, place((a + 0.5) / kSamples, (b + 0.5) / kSamples));
   }
   return median_of(grey.data(), grey.data() + count);
 }
+
+// A fraction of a length that leaves out `clear` of it at both ends.
+double within(double clear, double fraction) { return clear + (1.0 - 2.0 * clear) * fraction; }
 
 // Whether an edge borders the plane over all of its length, also where the other one has ended: a body's edge goes on
 // along its next face.
@@ -79,17 +78,12 @@ bool borders_plane(ImageView<const std::uint16_t> image, const EdgePair& pair, c
   const double inwards = edge.offset(pair.middle.middle()) > 0.0 ? 1.0 : -1.0;
   int alike = 0;
   for (int i = 0; i < kBlocksOfSide; ++i) {
-    std::array<double, kSamples * kSamples> grey{};
-    std::size_t count = 0;
-    for (int a = 0; a < kSamples; ++a) {
-      const double along = (i * kSamples + a + 0.5) / (kBlocksOfSide * kSamples);
-      const Vector2 foot = edge.begin + (kClearOfEnds + (1.0 - 2.0 * kClearOfEnds) * along) * (edge.end - edge.begin);
-      for (int b = 0; b < kSamples; ++b) {
-        const double depth = kClearOfSides + (kSideBand - kClearOfSides) * (b + 0.5) / kSamples;
-        grey[count++] = grey_at(image, foot + inwards * depth * pair.separation * edge.across());
-      }
-    }
-    alike += std::abs(median_of(grey.data(), grey.data() + count) - sky - level) < kMaxDeparture * level ? 1 : 0;
+    const double grey = level_of_block(image, [&](double along, double across) -> Vector2 {
+      const double depth = kClearOfSides + (kSideBand - kClearOfSides) * across;
+      return edge.begin + within(kClearOfEnds, (i + along) / kBlocksOfSide) * (edge.end - edge.begin) +
+             inwards * depth * pair.separation * edge.across();
+    });
+    alike += std::abs(grey - sky - level) < kMaxDeparture * level ? 1 : 0;
   }
   return alike >= kMinAlikeOfSide;
 }
@@ -102,7 +96,12 @@ bool is_one_plane(ImageView<const std::uint16_t> image, const TargetMask& target
   std::array<double, kBlocks * kBlocks> levels{};
   std::size_t count = 0;
   for (int i = 0; i < kBlocks; ++i) {
-    for (int k = 0; k < kBlocks; ++k) levels[count++] = level_of_block(image, strip, i, k) - target.sky;
+    for (int k = 0; k < kBlocks; ++k) {
+      const double grey = level_of_block(image, [&](double along, double across) {
+        return strip.at(within(kClearOfEnds, (i + along) / kBlocks), within(kClearOfSides, (k + across) / kBlocks));
+      });
+      levels[count++] = grey - target.sky;
+    }
   }
   const double level = median_of(levels.data(), levels.data() + count);
   const auto alike = std::count_if(levels.begin(), levels.end(),
