@@ -61,7 +61,7 @@ void write_source(const RawOutput& output) {
 
 std::size_t image_count(const RawApproach& approach) {
   if (approach.level != ApproachLevel::kImages) return 0;
-  const ApproachSimulator simulator(approach.scenario, approach.seed);
+  const ApproachSimulator simulator(with_one_ring(approach.scenario), approach.seed);
   std::size_t count = 0;
   for (std::size_t i = 0; i < approach.scenario.sources.size(); ++i) {
     if (approach.scenario.sources[i].kind == SourceKind::kLighthouse) continue;
