@@ -171,8 +171,32 @@ bool are_folders(const Options& options) {
                      [](const std::string& path) { return std::filesystem::is_directory(path); });
 }
 
-// Every pair of two folders, or of one that holds both sides. The first pair is asked for exchanged sides.
-bool from_folders(const ring2::Rig& rig, const Options& options) {
+// Of one pair of many. Empty where it cannot be used, which is told and counted; what is wrong with the first that can
+// be read would be wrong with all, and only that one is asked for exchanged sides.
+std::optional<host::Ring2Detection> detected(const host::PairName& pair, bool first, host::Ring2Detector& finder,
+                                             ImageInput& input) {
+  bool read = false;
+  try {
+    const std::array<host::GreyImage, 2> images{host::read_grey_image(pair.left), host::read_grey_image(pair.right)};
+    read = true;
+    const host::Ring2Images views{images[0].view(), images[1].view()};
+    host::Ring2Detection circles = finder.find(views);
+    host::PairFault fault = host::pair_fault({views[0], views[1]});
+    if (fault == host::PairFault::kNone && first && better_exchanged(finder, circles, views)) {
+      fault = host::PairFault::kExchanged;
+    }
+    if (fault != host::PairFault::kNone) throw host::NoPairError(pair.left + ": " + text_of(fault));
+    input.count_read(images[0].from_colour ? pair.left : images[1].from_colour ? pair.right : "");
+    return circles;
+  } catch (const host::InputError& error) {
+    if (read && first) throw;
+    input.leave_out(error);
+    return std::nullopt;
+  }
+}
+
+// Every pair of two folders, or of one that holds both sides. The exit code.
+int from_folders(const ring2::Rig& rig, const Options& options) {
   constexpr double kRate_hz = 1.0;  // times are not used
   const std::vector<host::PairName> pairs = options.images.size() == 1
                                                 ? host::pair_names_in(options.images[0], kRate_hz)
@@ -184,26 +208,21 @@ bool from_folders(const ring2::Rig& rig, const Options& options) {
   ImageInput input("pair");
   Output output(options.output, ring2_columns(true));
   Progress progress("searched", "pairs", pairs.size());
-  bool answered = false;
+  bool answered = false, first = true;
   for (const host::PairName& pair : pairs) {
-    const std::array<host::GreyImage, 2> images{input.read(pair.left), input.read(pair.right)};
-    const host::Ring2Images views{images[0].view(), images[1].view()};
-    host::Ring2Detection circles = finder.find(views);
-    host::PairFault fault = host::pair_fault({views[0], views[1]});
-    if (fault == host::PairFault::kNone && &pair == &pairs.front() && better_exchanged(finder, circles, views)) {
-      fault = host::PairFault::kExchanged;
-    }
-    if (fault != host::PairFault::kNone) throw host::NoPairError(pair.left + ": " + text_of(fault));
-    if (by_paper) solve_again_by_paper(rig, circles);
+    std::optional<host::Ring2Detection> circles = detected(pair, first, finder, input);
+    progress.step();
+    if (!circles) continue;
+    first = false;
+    if (by_paper) solve_again_by_paper(rig, *circles);
     output.rows().text(name_of(pair));
     const double time_s = pair.stamp_ns ? static_cast<double>(*pair.stamp_ns) * 1e-9 : pair.time_s;
-    write_detection(circles, {by_paper, circles.one_edge, time_s}, output.rows());
-    answered = answered || circles.estimate;
-    progress.step();
+    write_detection(*circles, {by_paper, circles->one_edge, time_s}, output.rows());
+    answered = answered || circles->estimate;
   }
   output.finish();
   if (answered) note_turn(options);
-  return answered;
+  return input.finish(answered);
 }
 
 bool from_images(const ring2::Rig& rig, const Options& options) {
@@ -240,6 +259,7 @@ int run(const Options& options) {
   if (table != options.images.empty()) throw host::InputError("give two images LEFT RIGHT, or --ellipses FILE");
   const bool folders = !table && are_folders(options);
   if (folders && !options.overlay.empty()) throw host::InputError("--overlay draws on one pair; give two images");
+  if (folders && options.repeats > 0) throw host::InputError("--time repeats one pair; give two images");
   if (!table && !folders && options.images.size() != 2)
     throw host::InputError("give both images: LEFT RIGHT; one tells no length");
   if (table && !options.target.empty()) {
@@ -250,8 +270,8 @@ int run(const Options& options) {
   const bool twice = read == "-" && (options.rig == "-" || (!table && options.images[1] == "-"));
   if (twice) throw host::InputError("standard input (-) can be read once");
   const ring2::Rig rig = host::ring2_rig(host::read_rig_file(options.rig));
-  const auto answer = table ? from_table : folders ? from_folders : from_images;
-  return answer(rig, options) ? kExitAnswered : kExitNoAnswer;
+  if (folders) return from_folders(rig, options);
+  return (table ? from_table(rig, options) : from_images(rig, options)) ? kExitAnswered : kExitNoAnswer;
 }
 
 }  // namespace

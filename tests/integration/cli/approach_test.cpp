@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 
@@ -70,6 +71,15 @@ TEST(CliApproach, RawDataOfAllSensorsFuseToTheTruth) {
   }
   EXPECT_GE(std::stoi(sources.at("tof").at("count")), 15);
   EXPECT_GE(std::stoi(sources.at("ring2").at("count")), 3);
+
+  // One pair that cannot be read costs its own row, not those of the others.
+  const std::size_t pairs = rows_of(content_of(dir + "/ring2.csv")).size();
+  std::ofstream(dir + "/ring2/1000162000000000_right.png") << "no image";
+  const Outcome damaged = pharos("circles " + dir + "/ring2 --rig " + dir + "/ring2/rig.toml");
+  EXPECT_EQ(damaged.exit_code, 0) << damaged.err;
+  EXPECT_EQ(rows_of(damaged.out).size(), pairs - 1);
+  EXPECT_THAT(damaged.err, HasSubstr("1000162000000000_right.png"));
+  EXPECT_THAT(damaged.err, HasSubstr("left out"));
 }
 
 TEST(CliApproach, FaultsOfPosesAreNotSimulatedInImages) {
