@@ -36,6 +36,9 @@ constexpr double kMinFromSight_rad = 10.0 * kRadPerDeg;
 // Of the best one's length: a shorter one is no rival.
 constexpr double kRivalLength = 0.5;
 constexpr double kOtherAxis_rad = 1.0 * kRadPerDeg;
+// What blur, a frame or a rounded corner leave between the two corners of a panel's end.
+constexpr double kCornerOff_px = 10.0;
+constexpr double kCornerOffFraction = 0.01;  // of the side's length
 // In the image, between the middle lines of a wing's panels: perspective draws them together in one line.
 constexpr double kMaxTurnOfWing_rad = 0.15;
 
@@ -74,6 +77,25 @@ std::optional<Square> square_of(const PanelMeasurement& panel, const AxisEstimat
   const double variance =
       across->axis.dot(axis.covariance * across->axis) + axis.axis.dot(across->covariance * axis.axis);
   return Square{0.5 * kPi - angle_of(axis.axis, across->axis), std::sqrt(variance)};
+}
+
+// How far beyond a side the line of an end of the panel crosses the side's line.
+double beyond_side_px(const Segment& side, const Segment& end) {
+  const double from = end.offset(side.begin), to = end.offset(side.end);
+  if (std::abs(from - to) < 1e-9) return 0.0;
+  const double station = from / (from - to) * side.length();
+  return std::max({0.0, -station, station - side.length()});
+}
+
+// Whether every end meets both sides alike. A body's outline is cut at a corner by an edge of a third direction: its
+// opposite sides are of two faces, and the ends of one of them.
+bool corners_close(const PanelMeasurement& panel) {
+  const Segment& first = panel.long_edges.front();
+  const Segment& last = panel.long_edges.back();
+  const double slack_px = kCornerOff_px + kCornerOffFraction * std::max(first.length(), last.length());
+  return std::all_of(panel.short_edges.begin(), panel.short_edges.end(), [&](const Segment& end) {
+    return std::abs(beyond_side_px(first, end) - beyond_side_px(last, end)) < slack_px;
+  });
 }
 
 bool is_contradicted(const Hypothesis& h) {
@@ -200,8 +222,12 @@ class Chooser {
   bool is_confirmed(const Hypothesis& h) const {
     if (h.axis.sigma_rad() > kUnsureSigma_rad) return true;
     if (is_interrupted(h)) return false;
+    return is_in_line(h) || (corners_close(h.measurement) && (is_square(h) || is_end_of_plane(h)));
+  }
+
+  static bool is_square(const Hypothesis& h) {
     const auto square = square_of(h.measurement, h.axis);
-    return (square && square->sigma_rad < kMaxSquareSigma_rad) || is_in_line(h) || is_end_of_plane(h);
+    return square && square->sigma_rad < kMaxSquareSigma_rad;
   }
 
   // A plane region with one end. That end tests nothing by itself: a direction square to the axis lies in any plane.
@@ -285,8 +311,17 @@ class Chooser {
     return angle_of(ray_of(h.pairs.front().middle.middle()), h.axis.axis) < kMinFromSight_rad;
   }
 
+  static double longest_panel_px(const Hypothesis& h) {
+    double longest = 0.0;
+    for (const EdgePair& pair : h.pairs) longest = std::max(longest, pair.middle.length());
+    return longest;
+  }
+
   static bool is_rival(const Hypothesis& best, const Hypothesis& other) {
-    if (other.score < kRivalLength * best.score || other.pairs.size() < best.pairs.size()) return false;
+    // Pieces of a body's two sides beside its wings are in line as a wing's panels are, and shorter than a panel of it.
+    const double min_length =
+        other.pairs.size() < best.pairs.size() ? longest_panel_px(best) : kRivalLength * best.score;
+    if (other.score < min_length) return false;
     // An axis that is hardly known agrees with any other in the plane of its edges, which is known.
     if (other.axis.sigma_rad() > kUnsureSigma_rad) return !lies_in(other.measurement.long_planes, best.axis);
     const double sigma = std::hypot(best.axis.sigma_rad(), other.axis.sigma_rad());
