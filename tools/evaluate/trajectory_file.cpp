@@ -34,7 +34,8 @@ class Collector {
  public:
   Collector(std::string name, const TrajectoryChoice& choice) : name_(std::move(name)), choice_(choice) {}
 
-  void take(const RawRow& row, std::size_t line) {
+  /// `one_time`: rows of one time are one, the last.
+  void take(const RawRow& row, std::size_t line, bool one_time = false) {
     if (file_.rows == 0) file_.first_s = row.time_s;
     file_.last_s = row.time_s;
     ++file_.rows;
@@ -45,6 +46,7 @@ class Collector {
     } else if (is_flagged(row.flags)) {
       ++file_.flagged;
     } else {
+      if (one_time) drop_same_time(row.time_s);
       keep(row, line);
     }
   }
@@ -54,6 +56,11 @@ class Collector {
   bool is_flagged(std::string_view flags) const {
     return std::any_of(choice_.without_flags.begin(), choice_.without_flags.end(),
                        [flags](const std::string& word) { return has_word(flags, word); });
+  }
+  void drop_same_time(double time_s) {
+    if (file_.samples.empty() || file_.samples.back().time_s != time_s) return;
+    file_.samples.pop_back();
+    --file_.rows;
   }
   void keep(const RawRow& row, std::size_t line) {
     const double length = row.q.norm();
@@ -103,7 +110,8 @@ class Table {
         status_(table_.find_optional("status")),
         flags_(table_.find_optional("flags")),
         sigma_rot_(table_.find_optional("sigma_rot_deg")),
-        sigma_pos_(table_.find_optional("sigma_pos_mm")) {}
+        sigma_pos_(table_.find_optional("sigma_pos_mm")),
+        one_world_(table_.find_optional("cov_xx_m2").has_value()) {}
 
   /// The next selected row.
   std::optional<RawRow> next(const TrajectoryChoice& choice) {
@@ -113,12 +121,15 @@ class Table {
     return std::nullopt;
   }
   std::size_t line() const { return table_.line_number(); }
+  /// A covariance in the axes of the world: a table of pharos track --sweeps. `station` only says whose light came last.
+  bool one_world() const { return one_world_; }
 
  private:
   bool is_wanted(const TrajectoryChoice& choice) {
     if (!station_ || table_.empty(*station_)) return true;
     const std::int64_t station = table_.integer(*station_, 0, 1'000'000);
     if (choice.station) return station == *choice.station;
+    if (one_world_) return true;
     if (!seen_station_) seen_station_ = station;
     if (*seen_station_ != station) {
       table_.fail(*station_, "rows of several stations, each in its own frame; choose one with --station");
@@ -143,6 +154,7 @@ class Table {
   host::TableReader table_;
   double unit_s_;
   std::optional<std::size_t> station_, status_, flags_, sigma_rot_, sigma_pos_;
+  bool one_world_;
   std::optional<std::int64_t> seen_station_;
 };
 
@@ -173,7 +185,7 @@ TrajectoryFile<WorldFromBody> read_trajectory(const std::string& path, const Tra
   const TimeColumn time = time_column(first, choice);
   Collector<WorldFromBody> collector(source.name(), choice);
   Table table(std::move(source), time);
-  while (const std::optional<RawRow> row = table.next(choice)) collector.take(*row, table.line());
+  while (const std::optional<RawRow> row = table.next(choice)) collector.take(*row, table.line(), table.one_world());
   return std::move(collector).result();
 }
 

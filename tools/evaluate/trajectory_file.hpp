@@ -34,7 +34,8 @@ struct TrajectoryFile {
 /// of comment, then ns, x, y, z, qw, qx, qy, qz and further columns, which are ignored, separated by commas) or a table
 /// with a header that has `time_s`, `utime` (us) or `frame`, and qw,qx,qy,qz,tx_m,ty_m,tz_m (tables of pharos, motion
 /// capture; of the others only `station`, `status`, `flags`, `sigma_rot_deg`, `sigma_pos_mm` are used). Recognised by
-/// content; .gz; -.
+/// content; .gz; -. Where there is `cov_xx_m2` (`pharos track --sweeps`), rows of all stations are poses in one world;
+/// of those of one time the last counts, which holds the light of the others, and they are one row.
 ///
 /// Throws host::InputError naming file and line: not a table, an invalid number, a quaternion whose length differs from
 /// 1 by more than 1 %, times that do not increase, several stations and none selected.

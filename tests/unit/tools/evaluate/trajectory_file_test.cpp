@@ -93,6 +93,23 @@ TEST(TrajectoryFile, WantsOneStation) {
   EXPECT_EQ(file.samples[0].pose.t.z(), 3.0);
 }
 
+// pharos track --sweeps: the sweeps of two stations may end at one time.
+TEST(TrajectoryFile, StationsOfOneWorldAreOneTrajectory) {
+  const std::string text =
+      "time_s,station,qw,qx,qy,qz,tx_m,ty_m,tz_m,status,cov_xx_m2\n1,0,1,0,0,0,0,0,2,ok,1e-6\n"
+      "1,1,1,0,0,0,0,0,3,ok,1e-6\n1.5,1,,,,,,,,refused_poor_fit,\n2,0,1,0,0,0,0,0,4,ok,1e-6\n";
+  const File file = read(text);
+  ASSERT_EQ(file.samples.size(), 2u);
+  EXPECT_EQ(file.samples[0].pose.t.z(), 3.0);
+  EXPECT_EQ(file.samples[1].pose.t.z(), 4.0);
+  EXPECT_EQ(file.rows, 3u);
+  EXPECT_EQ(file.refused, 1u);
+  TrajectoryChoice choice;
+  choice.station = 0;
+  EXPECT_EQ(read(text, choice).samples[0].pose.t.z(), 2.0);
+  expect_refused(text + "1.9,1,1,0,0,0,0,0,5,ok,1e-6\n", "its time is not later");
+}
+
 TEST(TrajectoryFile, CountsFramesAsTimeWhereThereIsNone) {
   TrajectoryChoice choice;
   choice.frame_rate_hz = 4.0;
