@@ -121,7 +121,8 @@ class Table {
     return std::nullopt;
   }
   std::size_t line() const { return table_.line_number(); }
-  /// A covariance in the axes of the world: a table of pharos track --sweeps. `station` only says whose light came last.
+  /// A covariance in the axes of the world: a table of pharos track --sweeps. `station` only says whose light came
+  /// last.
   bool one_world() const { return one_world_; }
 
  private:
