@@ -42,6 +42,9 @@ constexpr double kRateResetChi2 = 40.0;
 // Of a sweep beyond what the filter's present models hold possible, by far: a quiet body was pushed, or the sweep is
 // wrong. It is withheld; the next one of either rotor tells.
 constexpr double kSurpriseChi2 = 200.0;
+// Of coplanar sensors. Taken for a push, a sweep that is a millimetre off opens the attitude, and their tilt's side is
+// lost; it returns by chance.
+constexpr double kCoplanarSurpriseChi2 = 40.0;
 // Probability of the model of highest process noise from which on the body is shaken, and surprises are its own.
 constexpr double kAgitated = 0.3;
 // A body that a hand moves quickly has another attitude error in every sweep.
@@ -68,6 +71,12 @@ constexpr double kMaxTiltAtStart_rad = 0.042, kMaxTilt_rad = 2.0 * kTiltAlone_ra
 bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
   return innovation_of(fit.information, prediction.gate_covariance, Vector6::Zero()).chi2 > kRateResetChi2;
+}
+
+bool is_surprise(const SweepFit& fit, const StateEstimate& prediction) {
+  if (fit.sensors < kMinSensorsToJudge || fit.used.empty()) return false;
+  const double chi2 = innovation_of(fit.information, prediction.covariance, Vector6::Zero()).chi2;
+  return chi2 > kSurpriseChi2 || (chi2 > kCoplanarSurpriseChi2 && has_no_relief(fit));
 }
 
 }  // namespace
@@ -123,9 +132,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   StateEstimate prediction = with_systematics(filter_, observer);
   fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   const bool contradicts = fit_.sensors >= kMinSensorsToJudge && exceeds_rate_reset_gate(fit_, prediction);
-  const bool surprises =
-      contradicts || (fit_.sensors >= kMinSensorsToJudge && !fit_.used.empty() &&
-                      innovation_of(fit_.information, prediction.covariance, Vector6::Zero()).chi2 > kSurpriseChi2);
+  const bool surprises = contradicts || is_surprise(fit_, prediction);
   Leaps& leaps_of_rotor = station_state.leaps[axis_index];
   bool& rotor_contradicted = station_state.contradicted[axis_index];
   const bool leapt = leaps(fit_, prediction, now, leaps_of_rotor.since_taken_s(time)) &&

@@ -169,6 +169,12 @@ std::size_t worst_of(const HitFits& hits, const SweepInformation& information, c
   return worst;
 }
 
+Vector3 centre_of(const HitFits& hits) {
+  Vector3 centre = Vector3::Zero();
+  for (const HitFit& hit : hits) centre += hit.point_m;
+  return centre / static_cast<double>(hits.size());
+}
+
 bool coplanar(const HitFits& hits, const Vector3& centre) {
   pose::PlaneFit plane(centre);
   for (const HitFit& hit : hits) plane.add(hit.point_m);
@@ -242,13 +248,12 @@ SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const S
   return fit;
 }
 
+bool has_no_relief(const SweepFit& fit) { return coplanar(fit.used, centre_of(fit.used)); }
+
 bool count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise) {
-  Vector3 centre = Vector3::Zero(), gradient = Vector3::Zero();
-  for (const HitFit& hit : fit.used) {
-    centre += hit.point_m;
-    gradient += hit.jacobian.tail<3>();
-  }
-  centre /= static_cast<double>(fit.used.size());
+  const Vector3 centre = centre_of(fit.used);
+  Vector3 gradient = Vector3::Zero();
+  for (const HitFit& hit : fit.used) gradient += hit.jacobian.tail<3>();
   gradient /= static_cast<double>(fit.used.size());
   if (!coplanar(fit.used, centre)) return false;
   const Matrix3 attitude =

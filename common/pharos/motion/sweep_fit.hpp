@@ -64,6 +64,9 @@ inline constexpr double kHitGate = 5.0;
 SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                    const StateEstimate& state_estimate, std::int64_t time_ticks, const SweepNoise& noise);
 
+/// Whether the hits used are those of coplanar sensors.
+bool has_no_relief(const SweepFit& fit);
+
 /// Sigma of the attitude (root of the trace, rad) to which one cycle of four coplanar sensors seen from straight ahead
 /// tells their tilt alone: how large it is, not to which side.
 inline constexpr double kTiltAlone_rad = 0.03;
