@@ -38,7 +38,7 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   out.pose = WorldFromBody{state.pose.R, position_m};
   out.covariance.topLeftCorner<3, 3>() = state.covariance.topLeftCorner<3, 3>();
   out.covariance.diagonal().head<3>().array() += doubt_rad * doubt_rad;
-  out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->position_covariance();
+  out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->doubted_covariance();
   if (!fix_->sound) out.covariance.bottomRightCorner<3, 3>() += contradiction_covariance(out.time_s);
   out.flags = kFused;
   if (std::any_of(watch_.begin(), watch_.end(), [](const StationWatch& s) { return s.excluded; })) {
@@ -55,14 +55,31 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   return out;
 }
 
+double NetworkTracker::bearing_sigma(std::size_t station) const {
+  const double range_m = (filter_.mean().pose.t - stations_[station].T_world_station->t).norm();
+  return std::max(1e-6, stations_[station].sigmas.value_or(options_.noise.unstated).bearing_rad(range_m));
+}
+
 void NetworkTracker::saw(const LinearisedSweep& sweep) {
   StationWatch& station = watch_[sweep.station];
   station.plane_s[sweep.plane] = sweep.time_s;
   station.gradient[sweep.plane] = sweep.gradient;
   station.contradicted_s[sweep.plane] = -1e9;
-  const double range_m = (sweep.at.pose.t - stations_[sweep.station].T_world_station->t).norm();
-  station.sigma_rad[sweep.plane] =
-      std::max(1e-6, stations_[sweep.station].sigmas.value_or(options_.noise.unstated).bearing_rad(range_m));
+  station.sigma_rad[sweep.plane] = bearing_sigma(sweep.station);
+}
+
+void NetworkTracker::saw(const PositionFix& fix) {
+  for (const FixPlane& seen : fix.planes) {
+    StationWatch& station = watch_[seen.station];
+    if (seen.time_s < station.plane_s[seen.plane]) continue;
+    station.plane_s[seen.plane] = seen.time_s;
+    station.gradient[seen.plane] = seen.gradient;
+    station.sigma_rad[seen.plane] = bearing_sigma(seen.station);
+  }
+}
+
+void NetworkTracker::forget_contradictions(const PositionFix& fix) {
+  for (const FixPlane& seen : fix.planes) watch_[seen.station].contradicted_s[seen.plane] = -1e9;
 }
 
 // A plane whose light does not fit: the body may be where it says.
