@@ -12,6 +12,8 @@ constexpr double kUnseen_m = 0.1;
 constexpr double kAgreesChi2 = 9.0;
 // A sweep that is left so far off was taken by a state that knows hardly anything.
 constexpr double kWorstResidual_rad = 0.015;
+// What an attitude may be off by that leaves out hits: a flat target's mirror.
+constexpr double kSuspect_rad = 0.5;
 // How long a small target is followed without two stations that agree.
 constexpr double kCoast_s = 0.05;
 
@@ -37,7 +39,8 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   const Vector3& position_m = fix_->position_m;
   out.pose = WorldFromBody{state.pose.R, position_m};
   out.covariance.topLeftCorner<3, 3>() = state.covariance.topLeftCorner<3, 3>();
-  out.covariance.diagonal().head<3>().array() += doubt_rad * doubt_rad;
+  const double off_rad = attitude_suspect() ? kSuspect_rad : doubt_rad;
+  out.covariance.diagonal().head<3>().array() += off_rad * off_rad;
   out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->doubted_covariance();
   if (!fix_->sound) out.covariance.bottomRightCorner<3, 3>() += contradiction_covariance(out.time_s);
   out.flags = kFused;
@@ -110,6 +113,7 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   out.plane = static_cast<std::uint8_t>(sweep.plane);
   out.observations = sweep.hits();
   out.covariance = state.covariance.topLeftCorner<6, 6>();
+  if (attitude_suspect()) out.covariance.diagonal().head<3>().array() += kSuspect_rad * kSuspect_rad;
   const HitVector left = sweep.residual - sweep.rows.lazyProduct(state.difference(sweep.at).head<kObserved>());
   out.residual_rms_rad = std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
   if (sweep.hits() < sweep.sensors) out.flags |= kOutliers;

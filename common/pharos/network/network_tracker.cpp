@@ -33,7 +33,7 @@ constexpr double kUnconfirmed_rad = 0.15;
 // A lone hit of a target of several sensors cannot be told from a reflection.
 constexpr std::size_t kSensorsForPair = 3;
 // Hits that do not fit the others of their sweep: an attitude that leaves out so many is wrong. Averaged over so many.
-constexpr double kAttitudeDoubted = 0.25, kLeftOutSweeps = 8.0;
+constexpr double kAttitudeSuspect = 0.125, kAttitudeDoubted = 0.25, kLeftOutSweeps = 8.0;
 // Of the last sweeps so large a fraction at which the rates were forgotten: two stations that contradict each other
 // move the filter in turn. The onset of a motion is one or two.
 constexpr double kMaxResets = 0.1, kResetSweeps = 32.0;
@@ -123,7 +123,7 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
     return refused(sweep, pose::Refusal::kPoorFit);
   }
   const bool apart = 2 * linearised.hits() < linearised.sensors && !tells_range(target_, options_.noise);
-  if (apart) check_attitude();
+  if (apart || attitude_suspect()) check_attitude();
   const bool settled = !strayed(taken) && confirmed(now_s);
   // A small target is followed without two stations only as long as all light fits.
   if (!fix_ && (!taken || attitude_doubted())) fixed_s_ = -1e9;
@@ -273,6 +273,10 @@ bool NetworkTracker::strayed(bool taken) {
 bool NetworkTracker::fix_is_better() const {
   if (!fix_ || tells_range(target_, options_.noise)) return false;
   return fix_->doubted_covariance().trace() < (fix_->sound ? kBetterFix : 1.0) * position_variance();
+}
+
+bool NetworkTracker::attitude_suspect() const {
+  return left_out_ > kAttitudeSuspect && !tells_range(target_, options_.noise);
 }
 
 // True where other poses explain the recent sweeps better, and one of them is followed from now on.

@@ -113,6 +113,7 @@ class NetworkTracker {
   bool confirmed(double time_s) const;
   bool strayed(bool taken);
   bool fix_is_better() const;
+  bool attitude_suspect() const;
   bool attitude_doubted() const;
   bool check_attitude();
   double position_variance() const;  // of the filter, m^2: the sum of three
