@@ -181,7 +181,7 @@ void NetworkFilter::reset_rates() {
 
 void NetworkFilter::place(const PositionFix& fix, bool doubted) {
   FixMatrix covariance = fix.covariance;
-  if (doubted) covariance.topLeftCorner<3, 3>() += fix.doubt;
+  if (doubted) covariance.topLeftCorner<3, 3>() = fix.doubted_covariance();
   for (NetworkState& state : model_) state.place(fix.position_m, fix.velocity_m_s, fix.acceleration_m_s2, covariance);
   clear_rates(model_[0]);
   probability_ = {0.1, 0.2, 0.35, 0.35};

@@ -135,7 +135,7 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   // Where the filter differs by more than the noise from what two stations tell at once, one of them is wrong by that.
   if (fix_) {
     const Vector3 apart = state.pose.t - fix_->position_m;
-    const double excess = 1.0 - kAgreesChi2 / std::max(kAgreesChi2, apart_chi2(*fix_));
+    const double excess = 1.0 - kAgreesChi2 / std::max(kAgreesChi2, apart_chi2(*fix_, false));
     out.covariance.bottomRightCorner<3, 3>() += excess * apart * apart.transpose();
   }
   const double rotation = std::sqrt(out.covariance.topLeftCorner<3, 3>().trace());

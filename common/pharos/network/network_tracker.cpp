@@ -232,12 +232,17 @@ void NetworkTracker::check_consensus(double time_s) {
   }
 }
 
-double NetworkTracker::apart_chi2(const PositionFix& fix) const {
+// Of what lies between the filter and the position that two stations tell at once; `but_one`: where one sweep that may
+// be a reflection explains it, it is none.
+double NetworkTracker::apart_chi2(const PositionFix& fix, bool but_one) const {
   const NetworkState& state = filter_.mean();
   const StateMatrix& P = state.covariance;
   const Vector3 p = fix.position_m - state.pose.t, v = fix.velocity_m_s - state.rate.tail<3>();
-  const Matrix3 Sp = P.block<3, 3>(kPoseAt + 3, kPoseAt + 3) + fix.position_covariance();
-  const Matrix3 Sv = P.block<3, 3>(kRateAt + 3, kRateAt + 3) + fix.covariance.block<3, 3>(3, 3);
+  const Vector3 p1 = fix.by_one.head<3>(), v1 = fix.by_one.segment<3>(3);
+  const double part = but_one ? 1.0 : 0.0;
+  const Matrix3 Sp = P.block<3, 3>(kPoseAt + 3, kPoseAt + 3) + fix.position_covariance() + part * p1 * p1.transpose();
+  const Matrix3 Sv =
+      P.block<3, 3>(kRateAt + 3, kRateAt + 3) + fix.covariance.block<3, 3>(3, 3) + part * v1 * v1.transpose();
   return std::max(p.dot(Sp.inverse() * p), v.dot(Sv.inverse() * v));
 }
 
@@ -257,7 +262,7 @@ bool NetworkTracker::strayed(bool taken) {
   // not know.
   const bool vague = confirming && position_variance() > kVague * fix_->doubted_covariance().trace();
   if (confirming) saw(*fix_);
-  if (!vague && apart_chi2(*fix_) < kStrayedChi2) return false;
+  if (!vague && apart_chi2(*fix_, true) < kStrayedChi2) return false;
   // A state that did not know its position has an attitude of one station alone, that may be the mirror of the true
   // one.
   if (vague && check_attitude()) return true;

@@ -117,7 +117,7 @@ class NetworkTracker {
   bool attitude_doubted() const;
   bool check_attitude();
   double position_variance() const;  // of the filter, m^2: the sum of three
-  double apart_chi2(const PositionFix& fix) const;
+  double apart_chi2(const PositionFix& fix, bool but_one) const;
   SweepView used_recent() const;
   SweepView all_recent() const;
   Choice best_start(const Starts& starts);

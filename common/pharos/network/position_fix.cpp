@@ -22,7 +22,6 @@ constexpr int kMaxFarRows = 6;
 // With fewer a reflection would only look like a velocity.
 constexpr std::size_t kMinRows = 6;
 constexpr int kMinChecked = 4;
-constexpr double kReflected = 0.1;   // probability that the sweep which moves a position most is a reflection, at most
 constexpr double kLeastLeft = 1e-3;  // of a row's own variance, beside what the others tell of it
 // Of what stations are wrong by, what planes contradict each other by.
 constexpr double kContradictingPart = 0.4;
@@ -196,23 +195,19 @@ std::ptrdiff_t stations_checked(const Window& window) {
 
 // Where one of the rows is a reflection the body is where the others say: the row that moves it most (Cook's distance
 // of one row left out). A row that is far off already pulls little: there the body may be where that row says.
-Matrix3 doubt_of(const Window& window, const Motion& motion, const FixMatrix& covariance) {
-  Vector3 widest_m = Vector3::Zero();
-  Matrix3 far_m2 = Matrix3::Zero();
+void doubt(const Window& window, const Motion& motion, const FixMatrix& covariance, PositionFix& fix) {
   for (const Row& row : window) {
     if (row.range_m == 0.0) continue;
     const double residual_rad = row.residual_rad - row.gradient.dot(motion.at(row.dt_s) - row.at_m);
     const double weight = loss_weight(residual_rad, row.variance);
     const Vector9 gradient = row.by_motion();
     const Vector9 moved = weight * covariance.lazyProduct(gradient);
-    const double left = std::max(kLeastLeft, 1.0 - gradient.dot(moved));
-    const Vector3 without_m = residual_rad / left * moved.head<3>();
-    if (without_m.squaredNorm() > widest_m.squaredNorm()) widest_m = without_m;
+    const Vector9 by_one = residual_rad / std::max(kLeastLeft, 1.0 - gradient.dot(moved)) * moved;
+    if (by_one.head<3>().squaredNorm() > fix.by_one.head<3>().squaredNorm()) fix.by_one = by_one;
     if (residual_rad * residual_rad < kLoss * kLoss * row.variance) continue;
     const Vector3 there_m = residual_rad / row.gradient.squaredNorm() * row.gradient;
-    far_m2 += there_m * there_m.transpose();
+    fix.far_m2 += there_m * there_m.transpose();
   }
-  return far_m2 + kReflected * widest_m * widest_m.transpose();
 }
 
 // The last row of each plane.
@@ -283,11 +278,18 @@ std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stati
     fix.acceleration_m_s2 = motion.a;
     fix.covariance = scatter * *covariance;
     fix.sound = far_rows == 0 && stations_checked(window) >= 2;
-    if (!fix.sound) fix.doubt = doubt_of(window, motion, *covariance);
+    doubt(window, motion, *covariance, fix);
     fix.planes = planes_of(window);
     return fix;
   }
   return std::nullopt;
+}
+
+Matrix3 PositionFix::doubted_covariance() const {
+  // How probable it is, at most, that the sweep which moves a position most is a reflection.
+  constexpr double kReflected = 0.1;
+  const Vector3 by_one_m = by_one.head<3>();
+  return position_covariance() + far_m2 + kReflected * by_one_m * by_one_m.transpose();
 }
 
 }  // namespace pharos::network

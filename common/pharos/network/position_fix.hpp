@@ -30,11 +30,12 @@ struct PositionFix {
   // All sweeps agree, and there are at least four of each of two stations: three each are explained by a position and a
   // velocity, whatever a reflection makes of one.
   bool sound = false;
-  // Where it is not sound: what the position would be off by if one of the sweeps were a reflection, m^2.
-  Matrix3 doubt = Matrix3::Zero();
+  // Without the one sweep that moves it most it would be off by this much: that one may be a reflection.
+  Eigen::Matrix<double, 9, 1> by_one = Eigen::Matrix<double, 9, 1>::Zero();
+  Matrix3 far_m2 = Matrix3::Zero();  // how far off sweeps say that do not fit, outer products
   FixPlanes planes;
 
-  Matrix3 doubted_covariance() const { return position_covariance() + doubt; }
+  Matrix3 doubted_covariance() const;
   Matrix3 position_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
 
