@@ -38,6 +38,7 @@ struct Row {
   double range_m = 0.0;
   double residual_rad = 0.0;
   double variance = 1.0;
+  double weight = 0.0;  // of the last step
   Vector3 gradient = Vector3::Zero();
 
   Vector9 by_motion() const {
@@ -199,9 +200,8 @@ void doubt(const Window& window, const Motion& motion, const FixMatrix& covarian
   for (const Row& row : window) {
     if (row.range_m == 0.0) continue;
     const double residual_rad = row.residual_rad - row.gradient.dot(motion.at(row.dt_s) - row.at_m);
-    const double weight = loss_weight(residual_rad, row.variance);
     const Vector9 gradient = row.by_motion();
-    const Vector9 moved = weight * covariance.lazyProduct(gradient);
+    const Vector9 moved = row.weight * covariance.lazyProduct(gradient);
     const Vector9 by_one = residual_rad / std::max(kLeastLeft, 1.0 - gradient.dot(moved)) * moved;
     if (by_one.head<3>().squaredNorm() > fix.by_one.head<3>().squaredNorm()) fix.by_one = by_one;
     if (residual_rad * residual_rad < kLoss * kLoss * row.variance) continue;
@@ -251,13 +251,13 @@ std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stati
       const std::optional<double> residual_rad = residual_at(motion.at(row.dt_s), scene, row);
       if (!residual_rad) continue;
       const double far = *residual_rad * *residual_rad / (row.variance * kLoss * kLoss);
-      const double weight = step == 0 ? 1.0 / row.variance : loss_weight(*residual_rad, row.variance);
+      row.weight = step == 0 ? 1.0 / row.variance : loss_weight(*residual_rad, row.variance);
       const Vector9 gradient = row.by_motion();
       ++rows;
       if (far > 1.0) ++far_rows;
-      square += weight * *residual_rad * *residual_rad;
-      add_outer<9>(A, gradient, weight);
-      b += weight * *residual_rad * gradient;
+      square += row.weight * *residual_rad * *residual_rad;
+      add_outer<9>(A, gradient, row.weight);
+      b += row.weight * *residual_rad * gradient;
       last_rad[row.sweep->station][row.sweep->plane] = std::abs(*residual_rad);
     }
     const std::optional<FixMatrix> covariance = positive_inverse<9>(A);
