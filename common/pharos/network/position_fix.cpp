@@ -22,7 +22,7 @@ constexpr int kMaxFarRows = 6;
 // With fewer a reflection would only look like a velocity.
 constexpr std::size_t kMinRows = 6;
 constexpr int kMinChecked = 4;
-constexpr double kLeastLeft = 1e-3;  // of a row's own variance, beside what the others tell of it
+constexpr double kMinLeft = 1e-3;  // of a row's own variance, beside what the others tell of it
 // Of what stations are wrong by, what planes contradict each other by.
 constexpr double kContradictingPart = 0.4;
 // A displacement of less than this part of the range leaves an angle linear to 2 urad.
@@ -202,7 +202,7 @@ void doubt(const Window& window, const Motion& motion, const FixMatrix& covarian
     const double residual_rad = row.residual_rad - row.gradient.dot(motion.at(row.dt_s) - row.at_m);
     const Vector9 gradient = row.by_motion();
     const Vector9 moved = row.weight * covariance.lazyProduct(gradient);
-    const Vector9 by_one = residual_rad / std::max(kLeastLeft, 1.0 - gradient.dot(moved)) * moved;
+    const Vector9 by_one = residual_rad / std::max(kMinLeft, 1.0 - gradient.dot(moved)) * moved;
     if (by_one.head<3>().squaredNorm() > fix.by_one.head<3>().squaredNorm()) fix.by_one = by_one;
     if (residual_rad * residual_rad < kLoss * kLoss * row.variance) continue;
     const Vector3 there_m = residual_rad / row.gradient.squaredNorm() * row.gradient;
