@@ -216,6 +216,11 @@ evaluate::ComparisonOptions comparison_options(const Options& options) {
   return result;
 }
 
+void remark_repeated(const std::string& path, std::size_t repeated) {
+  if (repeated == 0) return;
+  note(path + ": " + std::to_string(repeated) + " rows repeat the time and the pose of the row before: taken once");
+}
+
 void remark(const Options& options, const evaluate::Comparison& c) {
   if (!c.refused.empty()) {
     note(options.estimate + " against " + options.truth + ": " + c.why);
@@ -240,6 +245,8 @@ int run(const Options& options) {
   if (options.station >= 0) choice.station = options.station;
   const auto estimate = evaluate::read_trajectory<evaluate::EstimatePose>(options.estimate, choice);
   const auto truth = evaluate::read_trajectory<evaluate::TruthPose>(options.truth, choice);
+  remark_repeated(options.estimate, estimate.repeated);
+  remark_repeated(options.truth, truth.repeated);
   const evaluate::Comparison comparison = evaluate::compare(estimate, truth, comparison_options(options));
   write(options, estimate, comparison);
   remark(options, comparison);

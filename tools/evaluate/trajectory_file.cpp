@@ -15,6 +15,8 @@ namespace pharos::evaluate {
 namespace {
 
 constexpr double kQuaternionTolerance = 0.01;
+// Poses of one time that are apart by less than this are one.
+constexpr double kRepeated_m = 1e-4, kRepeated_rad = 0.1 * kRadPerDeg;
 constexpr double kMicrosecond_s = 1e-6;
 constexpr double kLargestPosition_m = 1e6;
 constexpr std::size_t kPeek = 4096;
@@ -27,6 +29,13 @@ bool has_word(std::string_view flags, const std::string& word) {
     flags.remove_prefix(bar + 1);
   }
   return false;
+}
+
+// A pose that was written twice: trackers that give an update within the clock's last digit do.
+template <class WorldFromBody>
+bool repeats(const Sample<WorldFromBody>& before, const Sample<WorldFromBody>& sample) {
+  return sample.time_s == before.time_s && (sample.pose.t - before.pose.t).norm() < kRepeated_m &&
+         rotation_angle_between(sample.pose.R, before.pose.R) < kRepeated_rad;
 }
 
 template <class WorldFromBody>
@@ -68,10 +77,15 @@ class Collector {
       fail(line, "the quaternion has length " + std::to_string(length) + "; it must be 1");
     }
     if (!(row.t.cwiseAbs().maxCoeff() < kLargestPosition_m)) fail(line, "the position is beyond 1000 km; give metres");
+    Sample<WorldFromBody> sample{row.time_s, {row.q.normalized().toRotationMatrix(), row.t}, {}, {}};
+    if (!file_.samples.empty() && repeats(file_.samples.back(), sample)) {
+      --file_.rows;
+      ++file_.repeated;
+      return;
+    }
     if (!file_.samples.empty() && !(row.time_s > file_.samples.back().time_s)) {
       fail(line, "its time is not later than that of the pose before; sort the rows and keep one a time");
     }
-    Sample<WorldFromBody> sample{row.time_s, {row.q.normalized().toRotationMatrix(), row.t}, {}, {}};
     if (row.sigma_rot_deg && *row.sigma_rot_deg >= 0.0) sample.sigma_rotation_rad = *row.sigma_rot_deg * kRadPerDeg;
     if (row.sigma_pos_mm && *row.sigma_pos_mm >= 0.0) sample.sigma_position_m = *row.sigma_pos_mm / kMmPerM;
     file_.samples.push_back(sample);

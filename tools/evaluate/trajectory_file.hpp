@@ -26,6 +26,7 @@ struct TrajectoryFile {
   std::size_t refused = 0;    // rows without a pose or with another status than ok and ambiguous
   std::size_t ambiguous = 0;  // left out as ambiguous
   std::size_t flagged = 0;    // left out for a word of without_flags
+  std::size_t repeated = 0;   // beside the rows: the time and the pose of the row before, taken once
   double first_s = 0.0;       // times of the first and the last row, left out or not
   double last_s = 0.0;
 };
@@ -35,7 +36,8 @@ struct TrajectoryFile {
 /// with a header that has `time_s`, `utime` (us) or `frame`, and qw,qx,qy,qz,tx_m,ty_m,tz_m (tables of pharos, motion
 /// capture; of the others only `station`, `status`, `flags`, `sigma_rot_deg`, `sigma_pos_mm` are used). Recognised by
 /// content; .gz; -. Where there is `cov_xx_m2` (`pharos track --sweeps`), rows of all stations are poses in one world;
-/// of those of one time the last counts, which holds the light of the others, and they are one row.
+/// of those of one time the last counts, which holds the light of the others, and they are one row. Of other tables a
+/// row with the time and the pose of the one before (within 0.1 mm and 0.1 deg) is taken once and counted.
 ///
 /// Throws host::InputError naming file and line: not a table, an invalid number, a quaternion whose length differs from
 /// 1 by more than 1 %, times that do not increase, several stations and none selected.

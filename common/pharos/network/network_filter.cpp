@@ -179,9 +179,10 @@ void NetworkFilter::reset_rates() {
   merge();
 }
 
-void NetworkFilter::place(const PositionFix& fix) {
-  for (std::size_t m = 0; m < kModels; ++m)
-    model_[m].place(fix.position_m, fix.velocity_m_s, fix.acceleration_m_s2, fix.covariance);
+void NetworkFilter::place(const PositionFix& fix, bool doubted) {
+  FixMatrix covariance = fix.covariance;
+  if (doubted) covariance.topLeftCorner<3, 3>() = fix.doubted_covariance();
+  for (NetworkState& state : model_) state.place(fix.position_m, fix.velocity_m_s, fix.acceleration_m_s2, covariance);
   clear_rates(model_[0]);
   probability_ = {0.1, 0.2, 0.35, 0.35};
   const auto speed2 = fix.velocity_m_s.dot(fix.covariance.block<3, 3>(3, 3).inverse() * fix.velocity_m_s);

@@ -19,8 +19,9 @@ class NetworkFilter {
 
   /// At a pose that one station's sweeps gave, good to half a radian and 0.3 m.
   void start(const WorldFromBody& pose);
-  /// Position and its rates are known anew; attitude and its rate stay as they are.
-  void place(const PositionFix& fix);
+  /// Position and its rates are known anew, `doubted` where a sweep may be a reflection; attitude and its rate stay as
+  /// they are.
+  void place(const PositionFix& fix, bool doubted);
   void predict(double dt_s);
   /// No model explains the last sweeps: the one of most jerk forgets its rates.
   void reset_rates();

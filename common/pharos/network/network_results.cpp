@@ -12,6 +12,8 @@ constexpr double kUnseen_m = 0.1;
 constexpr double kAgreesChi2 = 9.0;
 // A sweep that is left so far off was taken by a state that knows hardly anything.
 constexpr double kWorstResidual_rad = 0.015;
+// What an attitude may be off by that leaves out hits: a flat target's mirror.
+constexpr double kSuspect_rad = 0.5;
 // How long a small target is followed without two stations that agree.
 constexpr double kCoast_s = 0.05;
 
@@ -37,8 +39,9 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   const Vector3& position_m = fix_->position_m;
   out.pose = WorldFromBody{state.pose.R, position_m};
   out.covariance.topLeftCorner<3, 3>() = state.covariance.topLeftCorner<3, 3>();
-  out.covariance.diagonal().head<3>().array() += doubt_rad * doubt_rad;
-  out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->position_covariance();
+  const double off_rad = attitude_suspect() ? kSuspect_rad : doubt_rad;
+  out.covariance.diagonal().head<3>().array() += off_rad * off_rad;
+  out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->doubted_covariance();
   if (!fix_->sound) out.covariance.bottomRightCorner<3, 3>() += contradiction_covariance(out.time_s);
   out.flags = kFused;
   if (std::any_of(watch_.begin(), watch_.end(), [](const StationWatch& s) { return s.excluded; })) {
@@ -55,14 +58,31 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   return out;
 }
 
+double NetworkTracker::bearing_sigma(std::size_t station) const {
+  const double range_m = (filter_.mean().pose.t - stations_[station].T_world_station->t).norm();
+  return std::max(1e-6, stations_[station].sigmas.value_or(options_.noise.unstated).bearing_rad(range_m));
+}
+
 void NetworkTracker::saw(const LinearisedSweep& sweep) {
   StationWatch& station = watch_[sweep.station];
   station.plane_s[sweep.plane] = sweep.time_s;
   station.gradient[sweep.plane] = sweep.gradient;
   station.contradicted_s[sweep.plane] = -1e9;
-  const double range_m = (sweep.at.pose.t - stations_[sweep.station].T_world_station->t).norm();
-  station.sigma_rad[sweep.plane] =
-      std::max(1e-6, stations_[sweep.station].sigmas.value_or(options_.noise.unstated).bearing_rad(range_m));
+  station.sigma_rad[sweep.plane] = bearing_sigma(sweep.station);
+}
+
+void NetworkTracker::saw(const PositionFix& fix) {
+  for (const FixPlane& seen : fix.planes) {
+    StationWatch& station = watch_[seen.station];
+    if (seen.time_s < station.plane_s[seen.plane]) continue;
+    station.plane_s[seen.plane] = seen.time_s;
+    station.gradient[seen.plane] = seen.gradient;
+    station.sigma_rad[seen.plane] = bearing_sigma(seen.station);
+  }
+}
+
+void NetworkTracker::forget_contradictions(const PositionFix& fix) {
+  for (const FixPlane& seen : fix.planes) watch_[seen.station].contradicted_s[seen.plane] = -1e9;
 }
 
 // A plane whose light does not fit: the body may be where it says.
@@ -93,6 +113,7 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   out.plane = static_cast<std::uint8_t>(sweep.plane);
   out.observations = sweep.hits();
   out.covariance = state.covariance.topLeftCorner<6, 6>();
+  if (attitude_suspect()) out.covariance.diagonal().head<3>().array() += kSuspect_rad * kSuspect_rad;
   const HitVector left = sweep.residual - sweep.rows.lazyProduct(state.difference(sweep.at).head<kObserved>());
   out.residual_rms_rad = std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
   if (sweep.hits() < sweep.sensors) out.flags |= kOutliers;
@@ -114,7 +135,7 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   // Where the filter differs by more than the noise from what two stations tell at once, one of them is wrong by that.
   if (fix_) {
     const Vector3 apart = state.pose.t - fix_->position_m;
-    const double excess = 1.0 - kAgreesChi2 / std::max(kAgreesChi2, apart_chi2(*fix_));
+    const double excess = 1.0 - kAgreesChi2 / std::max(kAgreesChi2, apart_chi2(*fix_, false));
     out.covariance.bottomRightCorner<3, 3>() += excess * apart * apart.transpose();
   }
   const double rotation = std::sqrt(out.covariance.topLeftCorner<3, 3>().trace());

@@ -25,6 +25,8 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
   filter_.start(pose);
   running_ = true;
   ++counters_.starts;
+  // What did not fit the state before says nothing of this one.
+  for (StationWatch& station : watch_) station.contradicted_s = {-1e9, -1e9};
   time_s_ = recent_[0].time_s();
   for (std::size_t i = 0; i < recent_.size(); ++i) {
     const PlaneSweep& sweep = recent_[i];
@@ -33,12 +35,15 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
     time_s_ = now_s;
     if (watch_[sweep.station].excluded) continue;
     const LinearisedSweep linearised = linearise(sweep, stations_, target_, filter_.mean(), now_s, options_.noise);
-    if (!fits(linearised)) continue;
+    if (!fits(linearised)) {
+      refuse(linearised);
+      continue;
+    }
     filter_.correct(linearised);
     saw(linearised);
   }
   fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise);
-  if (fix_) filter_.place(*fix_);
+  if (fix_) filter_.place(*fix_, false);
   accepted_s_ = checked_s_ = started_s_ = time_s;
   refused_in_row_ = 0;
   left_out_ = 0.0;
@@ -125,7 +130,7 @@ NetworkTracker::Choice NetworkTracker::best_start(const Starts& starts) {
 }
 
 // A wrong minimum of a flat target may live on: stations alone, and the mirror that they tell, are asked now and then.
-void NetworkTracker::check_alternatives(double time_s) {
+void NetworkTracker::check_alternatives(double time_s, bool doubted) {
   checked_s_ = time_s;
   const Starts starts = starts_of(all_recent(), stations_, target_);
   if (starts.empty()) return;
@@ -148,6 +153,8 @@ void NetworkTracker::check_alternatives(double time_s) {
     ambiguous_ = false;
     return;
   }
+  // Followed again from the present pose the recent sweeps may lead elsewhere too: those that were refused count then.
+  if (doubted && rotation_angle_between(own.R, filter_.mean().pose.R) > kSameRotation_rad) start_at(own, time_s);
   const double rival_cost = other ? choice.cost : choice.second_cost;
   ambiguous_ = rival_cost - own_cost < kAmbiguousDeltaChi2;
   second_ = other ? choice.pose : choice.second;

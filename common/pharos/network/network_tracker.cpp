@@ -33,7 +33,7 @@ constexpr double kUnconfirmed_rad = 0.15;
 // A lone hit of a target of several sensors cannot be told from a reflection.
 constexpr std::size_t kSensorsForPair = 3;
 // Hits that do not fit the others of their sweep: an attitude that leaves out so many is wrong. Averaged over so many.
-constexpr double kAttitudeDoubted = 0.25, kLeftOutSweeps = 8.0;
+constexpr double kAttitudeSuspect = 0.125, kAttitudeDoubted = 0.25, kLeftOutSweeps = 8.0;
 // Of the last sweeps so large a fraction at which the rates were forgotten: two stations that contradict each other
 // move the filter in turn. The onset of a motion is one or two.
 constexpr double kMaxResets = 0.1, kResetSweeps = 32.0;
@@ -122,9 +122,11 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
     ++counters_.losses;
     return refused(sweep, pose::Refusal::kPoorFit);
   }
+  const bool apart = 2 * linearised.hits() < linearised.sensors && !tells_range(target_, options_.noise);
+  if (apart || attitude_suspect()) check_attitude();
   const bool settled = !strayed(taken) && confirmed(now_s);
   // A small target is followed without two stations only as long as all light fits.
-  if (!fix_ && (!taken || left_out_ > kAttitudeDoubted)) fixed_s_ = -1e9;
+  if (!fix_ && (!taken || attitude_doubted())) fixed_s_ = -1e9;
   if (contradicted_) {
     ++counters_.sweeps_refused;
     return refused(sweep, pose::Refusal::kPoorFit);
@@ -132,11 +134,11 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
   if (!settled) return from_fix(sweep, confirmed(now_s) ? 0.0 : kUnconfirmed_rad);
   if (!taken) ++counters_.sweeps_refused;
   const double interval_s = ambiguous_ ? kCheckAmbiguous_s : kCheck_s;
-  if (taken && now_s - checked_s_ > interval_s) check_alternatives(now_s);
+  if (taken && now_s - checked_s_ > interval_s) check_alternatives(now_s, false);
   if (disputed()) return refused(sweep, pose::Refusal::kPoorFit);
-  if (fix_is_better()) {
+  if (fix_is_better() || attitude_doubted()) {
     const NetworkResult fixed = from_fix(sweep, 0.0);
-    if (fixed.pose.ok()) return fixed;
+    if (fixed.pose.ok() || attitude_doubted()) return fixed;
   }
   return taken ? result(linearised) : refused(sweep, pose::Refusal::kPoorFit);
 }
@@ -230,12 +232,17 @@ void NetworkTracker::check_consensus(double time_s) {
   }
 }
 
-double NetworkTracker::apart_chi2(const PositionFix& fix) const {
+// Of what lies between the filter and the position that two stations tell at once; `but_one`: where one sweep that may
+// be a reflection explains it, it is none.
+double NetworkTracker::apart_chi2(const PositionFix& fix, bool but_one) const {
   const NetworkState& state = filter_.mean();
   const StateMatrix& P = state.covariance;
   const Vector3 p = fix.position_m - state.pose.t, v = fix.velocity_m_s - state.rate.tail<3>();
-  const Matrix3 Sp = P.block<3, 3>(kPoseAt + 3, kPoseAt + 3) + fix.position_covariance();
-  const Matrix3 Sv = P.block<3, 3>(kRateAt + 3, kRateAt + 3) + fix.covariance.block<3, 3>(3, 3);
+  const Vector3 p1 = fix.by_one.head<3>(), v1 = fix.by_one.segment<3>(3);
+  const double part = but_one ? 1.0 : 0.0;
+  const Matrix3 Sp = P.block<3, 3>(kPoseAt + 3, kPoseAt + 3) + fix.position_covariance() + part * p1 * p1.transpose();
+  const Matrix3 Sv =
+      P.block<3, 3>(kRateAt + 3, kRateAt + 3) + fix.covariance.block<3, 3>(3, 3) + part * v1 * v1.transpose();
   return std::max(p.dot(Sp.inverse() * p), v.dot(Sv.inverse() * v));
 }
 
@@ -253,22 +260,41 @@ bool NetworkTracker::strayed(bool taken) {
   if (confirming) fixed_s_ = time_s_;
   // A filter whose attitude is wrong refuses the light that would tell it the position, and all fits it that it does
   // not know.
-  const bool vague = fix_->sound && confirming && position_variance() > kVague * fix_m2;
-  if (!vague && apart_chi2(*fix_) < kStrayedChi2) return false;
-  filter_.place(*fix_);
+  const bool vague = confirming && position_variance() > kVague * fix_->doubted_covariance().trace();
+  if (confirming) saw(*fix_);
+  if (!vague && apart_chi2(*fix_, true) < kStrayedChi2) return false;
+  // A state that did not know its position has an attitude of one station alone, that may be the mirror of the true
+  // one.
+  if (vague && check_attitude()) return true;
+  filter_.place(*fix_, vague);
   ++counters_.strays;
   // What did not fit the filter fits the position.
-  if (fix_->sound) {
-    for (StationWatch& station : watch_) station.contradicted_s = {-1e9, -1e9};
-  }
+  if (vague || fix_->sound) forget_contradictions(*fix_);
   return true;
 }
 
 // A filter takes what stations are wrong by for noise of each sweep, so that planes which contradict each other move it
 // in turn: in motion it knows no more than all sweeps together, each at its own instant. At rest it does.
 bool NetworkTracker::fix_is_better() const {
-  if (!fix_ || !fix_->sound || tells_range(target_, options_.noise)) return false;
-  return fix_->position_covariance().trace() < kBetterFix * position_variance();
+  if (!fix_ || tells_range(target_, options_.noise)) return false;
+  return fix_->doubted_covariance().trace() < (fix_->sound ? kBetterFix : 1.0) * position_variance();
+}
+
+bool NetworkTracker::attitude_suspect() const {
+  return left_out_ > kAttitudeSuspect && !tells_range(target_, options_.noise);
+}
+
+// True where other poses explain the recent sweeps better, and one of them is followed from now on.
+bool NetworkTracker::check_attitude() {
+  if (!confirmed(time_s_) || time_s_ - checked_s_ < kCheckAmbiguous_s) return false;
+  const std::uint64_t starts = counters_.starts;
+  check_alternatives(time_s_, true);
+  return counters_.starts > starts;
+}
+
+// Then the light that a wrong attitude takes draws the position of a small target away.
+bool NetworkTracker::attitude_doubted() const {
+  return left_out_ > kAttitudeDoubted && !tells_range(target_, options_.noise);
 }
 
 double NetworkTracker::position_variance() const {

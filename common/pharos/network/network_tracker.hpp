@@ -96,6 +96,9 @@ class NetworkTracker {
   NetworkResult result(const LinearisedSweep& sweep);
   NetworkResult from_fix(const PlaneSweep& sweep, double doubt_rad) const;
   void saw(const LinearisedSweep& sweep);
+  void saw(const PositionFix& fix);
+  void forget_contradictions(const PositionFix& fix);
+  double bearing_sigma(std::size_t station) const;  // of what station and plane are wrong by, rad
   void refuse(const LinearisedSweep& sweep);
   Matrix3 contradiction_covariance(double time_s) const;
   Matrix3 station_covariance(double time_s, const Vector3& body_m) const;
@@ -110,13 +113,16 @@ class NetworkTracker {
   bool confirmed(double time_s) const;
   bool strayed(bool taken);
   bool fix_is_better() const;
+  bool attitude_suspect() const;
+  bool attitude_doubted() const;
+  bool check_attitude();
   double position_variance() const;  // of the filter, m^2: the sum of three
-  double apart_chi2(const PositionFix& fix) const;
+  double apart_chi2(const PositionFix& fix, bool but_one) const;
   SweepView used_recent() const;
   SweepView all_recent() const;
   Choice best_start(const Starts& starts);
   double cost_of(const WorldFromBody& start, WorldFromBody& refined);
-  void check_alternatives(double time_s);
+  void check_alternatives(double time_s, bool doubted);
 
   Stations stations_;
   Target target_;

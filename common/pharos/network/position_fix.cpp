@@ -22,6 +22,7 @@ constexpr int kMaxFarRows = 6;
 // With fewer a reflection would only look like a velocity.
 constexpr std::size_t kMinRows = 6;
 constexpr int kMinChecked = 4;
+constexpr double kMinLeft = 1e-3;  // of a row's own variance, beside what the others tell of it
 // Of what stations are wrong by, what planes contradict each other by.
 constexpr double kContradictingPart = 0.4;
 // A displacement of less than this part of the range leaves an angle linear to 2 urad.
@@ -37,6 +38,7 @@ struct Row {
   double range_m = 0.0;
   double residual_rad = 0.0;
   double variance = 1.0;
+  double weight = 0.0;  // of the last step
   Vector3 gradient = Vector3::Zero();
 
   Vector9 by_motion() const {
@@ -135,6 +137,11 @@ bool linearise_at(const Vector3& t, const Scene& scene, Row& row) {
   return std::isfinite(row.residual_rad);
 }
 
+// Of a residual of so many sigmas (Cauchy's loss) how much counts.
+double loss_weight(double residual_rad, double variance) {
+  return 1.0 / (variance * (1.0 + residual_rad * residual_rad / (variance * kLoss * kLoss)));
+}
+
 /// What the row leaves with the body at `t`; anew where that is far from where it was linearised.
 std::optional<double> residual_at(const Vector3& t, const Scene& scene, Row& row) {
   if (row.range_m == 0.0 || !((t - row.at_m).norm() < kLinearPart * row.range_m)) {
@@ -187,6 +194,40 @@ std::ptrdiff_t stations_checked(const Window& window) {
   return std::count_if(sweeps.begin(), sweeps.end(), [](int count) { return count >= kMinChecked; });
 }
 
+// Where one of the rows is a reflection the body is where the others say: the row that moves it most (Cook's distance
+// of one row left out). A row that is far off already pulls little: there the body may be where that row says.
+void doubt(const Window& window, const Motion& motion, const FixMatrix& covariance, PositionFix& fix) {
+  for (const Row& row : window) {
+    if (row.range_m == 0.0) continue;
+    const double residual_rad = row.residual_rad - row.gradient.dot(motion.at(row.dt_s) - row.at_m);
+    const Vector9 gradient = row.by_motion();
+    const Vector9 moved = row.weight * covariance.lazyProduct(gradient);
+    const Vector9 by_one = residual_rad / std::max(kMinLeft, 1.0 - gradient.dot(moved)) * moved;
+    if (by_one.head<3>().squaredNorm() > fix.by_one.head<3>().squaredNorm()) fix.by_one = by_one;
+    if (residual_rad * residual_rad < kLoss * kLoss * row.variance) continue;
+    const Vector3 there_m = residual_rad / row.gradient.squaredNorm() * row.gradient;
+    fix.far_m2 += there_m * there_m.transpose();
+  }
+}
+
+// The last row of each plane.
+FixPlanes planes_of(const Window& window) {
+  FixPlanes planes;
+  for (const Row& row : window) {
+    if (row.range_m == 0.0) continue;
+    const FixPlane own{row.sweep->station, row.sweep->plane, row.sweep->time_s(), row.gradient};
+    FixPlane* same = std::find_if(planes.begin(), planes.end(), [&](const FixPlane& other) {
+      return other.station == own.station && other.plane == own.plane;
+    });
+    if (same == planes.end()) {
+      planes.push_back(own);
+    } else if (same->time_s < own.time_s) {
+      *same = own;
+    }
+  }
+  return planes;
+}
+
 }  // namespace
 
 std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
@@ -210,13 +251,13 @@ std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stati
       const std::optional<double> residual_rad = residual_at(motion.at(row.dt_s), scene, row);
       if (!residual_rad) continue;
       const double far = *residual_rad * *residual_rad / (row.variance * kLoss * kLoss);
-      const double weight = 1.0 / (row.variance * (step == 0 ? 1.0 : 1.0 + far));
+      row.weight = step == 0 ? 1.0 / row.variance : loss_weight(*residual_rad, row.variance);
       const Vector9 gradient = row.by_motion();
       ++rows;
       if (far > 1.0) ++far_rows;
-      square += weight * *residual_rad * *residual_rad;
-      add_outer<9>(A, gradient, weight);
-      b += weight * *residual_rad * gradient;
+      square += row.weight * *residual_rad * *residual_rad;
+      add_outer<9>(A, gradient, row.weight);
+      b += row.weight * *residual_rad * gradient;
       last_rad[row.sweep->station][row.sweep->plane] = std::abs(*residual_rad);
     }
     const std::optional<FixMatrix> covariance = positive_inverse<9>(A);
@@ -231,10 +272,24 @@ std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stati
       return std::nullopt;
     // Position alone is free; rates lean on their priors.
     const double scatter = std::max(1.0, square / std::max(1, rows - 3));
-    const bool sound = far_rows == 0 && stations_checked(window) >= 2;
-    return PositionFix{motion.p, motion.v, motion.a, scatter * *covariance, sound};
+    PositionFix fix;
+    fix.position_m = motion.p;
+    fix.velocity_m_s = motion.v;
+    fix.acceleration_m_s2 = motion.a;
+    fix.covariance = scatter * *covariance;
+    fix.sound = far_rows == 0 && stations_checked(window) >= 2;
+    doubt(window, motion, *covariance, fix);
+    fix.planes = planes_of(window);
+    return fix;
   }
   return std::nullopt;
+}
+
+Matrix3 PositionFix::doubted_covariance() const {
+  // How probable it is, at most, that the sweep which moves a position most is a reflection.
+  constexpr double kReflected = 0.1;
+  const Vector3 by_one_m = by_one.head<3>();
+  return position_covariance() + far_m2 + kReflected * by_one_m * by_one_m.transpose();
 }
 
 }  // namespace pharos::network

@@ -12,6 +12,15 @@ namespace pharos::network {
 /// Errors of position, velocity, acceleration: 3 each.
 using FixMatrix = Eigen::Matrix<double, 9, 9>;
 
+/// A plane whose sweeps a position was found from.
+struct FixPlane {
+  std::size_t station = 0;
+  std::size_t plane = 0;
+  double time_s = 0.0;                 // of the last one
+  Vector3 gradient = Vector3::Zero();  // of its angle by the position then, rad/m
+};
+using FixPlanes = StaticVector<FixPlane, kPlanes * kMaxNetworkStations>;
+
 /// Where a body is and how it moves, from the recent sweeps alone.
 struct PositionFix {
   Vector3 position_m = Vector3::Zero();
@@ -21,7 +30,12 @@ struct PositionFix {
   // All sweeps agree, and there are at least four of each of two stations: three each are explained by a position and a
   // velocity, whatever a reflection makes of one.
   bool sound = false;
+  // Without the one sweep that moves it most it would be off by this much: that one may be a reflection.
+  Eigen::Matrix<double, 9, 1> by_one = Eigen::Matrix<double, 9, 1>::Zero();
+  Matrix3 far_m2 = Matrix3::Zero();  // how far off sweeps say that do not fit, outer products
+  FixPlanes planes;
 
+  Matrix3 doubted_covariance() const;
   Matrix3 position_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
 

@@ -16,6 +16,8 @@ constexpr double kMinPiece_s = 0.3, kMaxPiece_s = 1.0, kGap_s = 0.15;
 // Between control points: a hand moves by less than a millimetre otherwise within it.
 constexpr double kStep_s = 0.04;
 constexpr double kStart_m = 0.3;  // a start for an adjustment may be known less well than an answer
+// The adjustment does not get out of a flat target's mirrored attitude: one that may be it is no start.
+constexpr double kStart_rad = 0.5;
 
 struct Tracked {
   double time_s = 0.0;
@@ -45,6 +47,7 @@ TrackedMotion track_motion(const std::vector<network::PlaneSweep>& sweeps, const
                            const Target& target, const network::StationSigmas& unstated) {
   network::NetworkOptions options;
   options.max_position_m = kStart_m;
+  options.max_rotation_rad = kStart_rad;
   options.noise.unstated = unstated;
   options.noise.model_rad = 0.0;  // of the adjustment that follows, not of a start for it
   network::Stations uncertain = stations;

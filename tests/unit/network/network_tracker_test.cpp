@@ -9,39 +9,10 @@
 #include <random>
 #include <vector>
 
+#include "unit/network/room.hpp"
+
 namespace pharos::network {
 namespace {
-
-// A station at `at` that looks at `to`; x right, y down, z ahead.
-WorldFromStation looking(const Vector3& at, const Vector3& to) {
-  const Vector3 ahead = (to - at).normalized();
-  const Vector3 right = ahead.cross(Vector3::UnitZ()).normalized();
-  Matrix3 R;
-  R << right, ahead.cross(right), ahead;
-  return {R, at};
-}
-
-Target deck() {
-  Target target;
-  std::uint8_t number = 0;
-  for (const double x : {-0.015, 0.015}) {
-    for (const double y : {0.0075, -0.0075}) target.push_back({number++, {x, y, 0.0}, Vector3::UnitZ()});
-  }
-  return target;
-}
-
-Stations two_stations(Generation generation) {
-  Stations stations;
-  for (std::uint8_t k = 0; k < 2; ++k) {
-    Station station;
-    station.number = k;
-    station.generation = generation;
-    station.T_world_station = looking(k == 0 ? Vector3(-2.5, 0, 3) : Vector3(0.4, -3.0, 3), Vector3(0, 0, 0.8));
-    station.sigmas = StationSigmas{0.002, 0.001, 0.0003};
-    stations.push_back(station);
-  }
-  return stations;
-}
 
 WorldFromBody body_at(double t) {
   return {rotation_exp({0.2 * std::sin(0.8 * t), 0.2 * std::cos(0.7 * t), 0.5 * std::sin(0.3 * t)}),

@@ -110,6 +110,16 @@ TEST(TrajectoryFile, StationsOfOneWorldAreOneTrajectory) {
   expect_refused(text + "1.9,1,1,0,0,0,0,0,5,ok,1e-6\n", "its time is not later");
 }
 
+// A tracker that writes two updates within the last digit of its clock.
+TEST(TrajectoryFile, TakesAPoseThatWasWrittenTwiceOnce) {
+  const File file =
+      read(std::string(kHeader) + "1,1,0,0,0,1,2,3\n2,1,0,0,0,1,2,3\n2,1,0.0001,0,0,1,2,3.00001\n3,1,0,0,0,1,2,3\n");
+  ASSERT_EQ(file.samples.size(), 3u);
+  EXPECT_EQ(file.samples[1].pose.t.z(), 3.0);
+  EXPECT_EQ(file.rows, 3u);
+  EXPECT_EQ(file.repeated, 1u);
+}
+
 TEST(TrajectoryFile, CountsFramesAsTimeWhereThereIsNone) {
   TrajectoryChoice choice;
   choice.frame_rate_hz = 4.0;
@@ -124,7 +134,8 @@ TEST(TrajectoryFile, RefusesWhatItCannotTrust) {
   expect_refused(header + "1,0.8,0,0.5,0,1,2,3\n", "line 2: the quaternion has length 0.94");
   expect_refused(header + "1,0,0,0,0,1,2,3\n", "length 0.0");
   expect_refused(header + "2,1,0,0,0,1,2,3\n1,1,0,0,0,1,2,3\n", "line 3: its time is not later");
-  expect_refused(header + "2,1,0,0,0,1,2,3\n2,1,0,0,0,1,2,3\n", "its time is not later");
+  expect_refused(header + "2,1,0,0,0,1,2,3\n2,1,0,0,0,1,2,3.001\n", "line 3: its time is not later");
+  expect_refused(header + "2,1,0,0,0,1,2,3\n2,0.99995,0.01,0,0,1,2,3\n", "line 3: its time is not later");
   expect_refused(header + "1,1,0,0,0,1,2,4e7\n", "metres");
   expect_refused(header + "nan,1,0,0,0,1,2,3\n", "line 2");
   expect_refused("1 2 3 0 0 0 1\n", "8 numbers");
