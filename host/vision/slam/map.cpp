@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/slam/map.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
@@ -85,11 +86,24 @@ void Map::reparent(Keyframe& orphan, KeyframeId removed, KeyframeId grandparent)
   if (best != kNone) keyframes.at(best).children.insert(orphan.id);
 }
 
+namespace {
+
+// Covariances along a path from the first keyframe add; whichever of the two lies farther has the larger one.
+Matrix6 between(const Matrix6& a, const Matrix6& b) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> difference(a - b);
+  if (difference.info() != Eigen::Success) return a + b;
+  return difference.eigenvectors() * difference.eigenvalues().cwiseAbs().asDiagonal() *
+         difference.eigenvectors().transpose();
+}
+
+}  // namespace
+
 void Map::remove_keyframe(KeyframeId id) {
   const auto at = keyframes.find(id);
   if (at == keyframes.end() || at->second.parent == kNone) return;
   Keyframe& gone = at->second;
-  removed_[id] = {gone.parent, gone.pose * keyframes.at(gone.parent).pose.inverse()};
+  const Keyframe& parent = keyframes.at(gone.parent);
+  removed_[id] = {gone.parent, gone.pose * parent.pose.inverse(), between(gone.covariance, parent.covariance)};
   const std::vector<PointId> seen = gone.points;
   for (const PointId point : seen) {
     if (point != kNone) forget_observation(point, id);
@@ -183,9 +197,13 @@ CameraFromTarget Map::pose_of(KeyframeId id) const {
   return chain * keyframes.at(id).pose;
 }
 
-const Matrix6& Map::covariance_of(KeyframeId id) const {
-  for (auto at = removed_.find(id); at != removed_.end(); at = removed_.find(id)) id = at->second.parent;
-  return keyframes.at(id).covariance;
+Matrix6 Map::covariance_of(KeyframeId id) const {
+  Matrix6 between = Matrix6::Zero();
+  for (auto at = removed_.find(id); at != removed_.end(); at = removed_.find(id)) {
+    between += at->second.between;
+    id = at->second.parent;
+  }
+  return keyframes.at(id).covariance + between;
 }
 
 void Map::forget_removed(KeyframeId kept) {

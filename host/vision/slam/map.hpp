@@ -75,8 +75,9 @@ class Map {
   std::vector<KeyframeId> best_neighbours(KeyframeId keyframe, std::size_t count) const;
   /// The pose of a keyframe, also of a removed one.
   CameraFromTarget pose_of(KeyframeId keyframe) const;
-  /// Its covariance; for a removed one, that of the keyframe to which its pose is relative.
-  const Matrix6& covariance_of(KeyframeId keyframe) const;
+  /// Its covariance; for a removed one, that of the keyframe to which its pose is relative and what lay between the two
+  /// when it was removed: no later adjustment corrects that part.
+  Matrix6 covariance_of(KeyframeId keyframe) const;
   /// Forgets removed keyframes, except those that own a patch and those in `kept`.
   void forget_removed(KeyframeId kept);
   std::size_t removed() const { return removed_.size(); }
@@ -89,6 +90,7 @@ class Map {
   struct Removed {
     KeyframeId parent;
     Pose<frame::Camera, frame::Camera> T_this_parent;
+    Matrix6 between;  // covariance of the one relative to the other, along the target's axes
   };
   void reparent(Keyframe& orphan, KeyframeId removed, KeyframeId grandparent);
 

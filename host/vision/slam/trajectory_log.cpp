@@ -49,8 +49,8 @@ std::vector<TrackedFrame> TrajectoryLog::frames(const Map& map, const Matrix3& R
     if (!entry.placed) continue;
     const CameraFromTarget pose = entry.T_frame_reference * map.pose_of(entry.reference);
     Matrix6 covariance = turned(pose.R, map.covariance_of(entry.reference));
-    // A present keyframe has its pose and covariance from the map, which includes its features' part.
-    if (!entry.keyframe || !map.keyframes.contains(entry.reference)) covariance += matrix_of(entry.own);
+    // A keyframe has its covariance from the map, which includes its features' part.
+    if (!entry.keyframe) covariance += matrix_of(entry.own);
     out.back().placed = in_left_frame({pose, covariance, static_cast<double>(entry.rms_px)}, R_left_rectified);
   }
   return out;

@@ -14,7 +14,7 @@ namespace pharos::slam {
 class TrajectoryLog {
  public:
   /// `own`: the covariance of the frame's pose for an exactly known `reference`. A frame that is a keyframe is its own
-  /// reference; `own` is used once that keyframe is no longer in the map.
+  /// reference, and its covariance is the map's.
   void add(const TrackedFrame& frame, KeyframeId reference, const Pose<frame::Camera, frame::Camera>& T_frame_reference,
            const Matrix6& own);
   /// Poses from the present map; `R_left_rectified` converts them from the rectified camera's frame to the left one's.

@@ -96,6 +96,18 @@ TEST_F(MapOfTurns, ARemovedKeyframeIsStillKnownByItsPlace) {
   EXPECT_LT(pose_difference(map_.pose_of(4), before).norm(), 1e-9);
 }
 
+// No adjustment corrects what lies between a removed keyframe and the one that it is relative to.
+TEST_F(MapOfTurns, ARemovedKeyframeIsAsUncertainAsItsPathWasLong) {
+  for (auto& [id, keyframe] : map_.keyframes) keyframe.covariance = 1e-6 * id * Matrix6::Identity();
+  for (const KeyframeId id : {5, 4}) map_.remove_keyframe(id);
+  EXPECT_LT((map_.covariance_of(5) - 5e-6 * Matrix6::Identity()).norm(), 1e-12);
+  // A loop was closed: what is still in the map is better known, in any order.
+  for (auto& [id, keyframe] : map_.keyframes) keyframe.covariance = 1e-7 * Matrix6::Identity();
+  const Matrix6 after = map_.covariance_of(5);
+  EXPECT_GT(after(0, 0), 1e-6);
+  EXPECT_LT(after(0, 0), 5.2e-6);
+}
+
 // Data that must not grow in an endless run.
 TEST_F(MapOfTurns, RemovedKeyframesWithoutReferencesAreErased) {
   for (const KeyframeId id : {3, 4, 5}) map_.remove_keyframe(id);
