@@ -45,8 +45,8 @@ constexpr double kSurpriseChi2 = 200.0;
 // Of coplanar sensors. Taken for a push, a sweep that is a millimetre off opens the attitude, and their tilt's side is
 // lost; it returns by chance.
 constexpr double kCoplanarSurpriseChi2 = 40.0;
-// Of a sweep that the next ones must agree with: one in 65,000 by noise alone.
-constexpr double kDoubtfulChi2 = 30.0;
+// Of a sweep that the next ones must agree with: one in 800 by noise alone, and as little as opens the filter.
+constexpr double kDoubtfulChi2 = 20.0;
 // Probability of the model of highest process noise from which on the body is shaken, and surprises are its own.
 constexpr double kAgitated = 0.3;
 // A body that a hand moves quickly has another attitude error in every sweep.
@@ -149,7 +149,9 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   withheld_ = leapt || (quiet && surprises && !contradicted_ && !rotor_contradicted);
   const bool pushed = quiet && surprises && !withheld_ && sweeps_ > kSettled;
   contradicted_ = rotor_contradicted = surprises;
-  const bool doubtful = was_steady && !withheld_ && sweeps_ > kSettled && (surprises || chi2 > kDoubtfulChi2);
+  // Sweeps of a station of unknown calibration contradict one another without being wrong.
+  const bool doubtful = was_steady && !withheld_ && sweeps_ > kSettled && view.calibration != nullptr &&
+                        (surprises || chi2 > kDoubtfulChi2);
   if (doubtful && without != nullptr) without->emplace(*this).leave_out();
   rates_reset_ = contradicts && !withheld_;
   if (rates_reset_) {

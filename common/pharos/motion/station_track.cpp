@@ -81,21 +81,24 @@ void StationTrack::drop_alternative() {
 void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                         const AssumedNoise& noise) {
   if (!best_) return;
-  const bool alone = !alternative_;
-  best_->push(bearings, axis, view, noise, Observer::kReference, alone ? &alternative_ : nullptr);
+  const bool may_doubt = !alternative_ || doubt_sweeps_ > 0;
+  std::optional<Hypothesis> without;
+  best_->push(bearings, axis, view, noise, Observer::kReference, may_doubt ? &without : nullptr);
   const Matrix6& covariance = best_->state_estimate().covariance;
   if (!(covariance.topLeftCorner<3, 3>().trace() < kLostTrackRotation_rad * kLostTrackRotation_rad) ||
       !(covariance.bottomRightCorner<3, 3>().trace() < kLostTrackPosition_m * kLostTrackPosition_m)) {
     lose();
     return;
   }
-  if (!alternative_) return;
-  if (alone) {
+  if (without) {
+    // In place of an earlier one: a body that is steady again has borne that one out.
+    alternative_ = without;
     best_->reset_cost();
     alternative_settled_ = false;
     doubt_sweeps_ = kDoubtSweeps;
     return;
   }
+  if (!alternative_) return;
   alternative_->push(bearings, axis, view, noise);
   decide();
 }

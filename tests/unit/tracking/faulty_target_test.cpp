@@ -52,14 +52,15 @@ TEST(FaultyTarget, AWrongSweepNowAndThenDoesNotOpenTheFilterForTheNextOne) {
     double onset_s;
     std::uint64_t seed;
   };
-  constexpr std::array<Flight, 4> kFlights{{{Fault::kWrongTimes, 2.0, 13211},
+  constexpr std::array<Flight, 5> kFlights{{{Fault::kWrongTimes, 2.0, 13211},
                                             {Fault::kWrongTimes, 0.0, 13211},
                                             {Fault::kWrongTimes, 0.0, 12059},
-                                            {Fault::kShiftedHits, 0.0, 12085}}};
+                                            {Fault::kShiftedHits, 0.0, 12085},
+                                            {Fault::kShiftedSweeps, 0.0, 14237}}};
   for (const Flight& flight : kFlights) {
     const Count count = score_of(flight.fault, 0.01, flight.onset_s, flight.seed, flight.seed);
     EXPECT_EQ(count.wrong, 0);
-    EXPECT_GT(count.ok, 0.95 * count.answers);
+    EXPECT_GT(count.ok, 0.9 * count.answers);
   }
 }
 
