@@ -82,23 +82,22 @@ void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, co
                         const AssumedNoise& noise) {
   if (!best_) return;
   const bool may_doubt = !alternative_ || doubt_sweeps_ > 0;
-  std::optional<Hypothesis> without;
-  best_->push(bearings, axis, view, noise, Observer::kReference, may_doubt ? &without : nullptr);
+  best_->push(bearings, axis, view, noise, Observer::kReference, may_doubt ? &alternative_ : nullptr);
   const Matrix6& covariance = best_->state_estimate().covariance;
   if (!(covariance.topLeftCorner<3, 3>().trace() < kLostTrackRotation_rad * kLostTrackRotation_rad) ||
       !(covariance.bottomRightCorner<3, 3>().trace() < kLostTrackPosition_m * kLostTrackPosition_m)) {
     lose();
     return;
   }
-  if (without) {
-    // In place of an earlier one: a body that is steady again has borne that one out.
-    alternative_ = without;
+  if (!alternative_) return;
+  // An alternative of an earlier doubt has not counted this sweep yet: this is a new one, in its place, as a body that
+  // is steady again has borne the earlier doubt out.
+  if (may_doubt && alternative_->sweeps() == best_->sweeps()) {
     best_->reset_cost();
     alternative_settled_ = false;
     doubt_sweeps_ = kDoubtSweeps;
     return;
   }
-  if (!alternative_) return;
   alternative_->push(bearings, axis, view, noise);
   decide();
 }
