@@ -69,7 +69,8 @@ bool is_possible(const pose_t& message) {
   if (!has_header(message)) return false;
   if (message.valid == 0) return true;
   const bool second =
-      message.has_second == 0 || (are_values(message.second_position_m) && is_unit(message.second_orientation_wxyz));
+      message.has_second == 0 || (are_values(message.second_position_m) && is_unit(message.second_orientation_wxyz) &&
+                                  is_value(message.second_delta_chi2));
   return second && are_values(message.position_m) && is_unit(message.orientation_wxyz) &&
          is_covariance<6>(message.covariance) && is_sigma(message.sigma_rot_rad) && is_sigma(message.sigma_pos_m) &&
          is_value(message.residual_rms_rad);

@@ -25,6 +25,11 @@ void append_number(std::string& out, T value) {
   out.append(chars.data(), result.ptr);
 }
 
+bool is_control(char c) {
+  const auto code = static_cast<unsigned char>(c);
+  return code < 0x20 || code == 0x7F;
+}
+
 void append_json_text(std::string& out, std::string_view text) {
   constexpr std::string_view kHex = "0123456789abcdef";
   out += '"';
@@ -33,7 +38,7 @@ void append_json_text(std::string& out, std::string_view text) {
     if (c == '"' || c == '\\') {
       out += '\\';
       out += c;
-    } else if (code < 0x20) {
+    } else if (is_control(c)) {
       out += "\\u00";
       out += kHex[code >> 4];
       out += kHex[code & 15];
@@ -44,9 +49,9 @@ void append_json_text(std::string& out, std::string_view text) {
   out += '"';
 }
 
-// CSV of Pharos has no quoting: characters that would break a row are replaced.
+// CSV of Pharos has no quoting: characters that would break a row, or that a terminal obeys, are replaced.
 void append_csv_text(std::string& out, std::string_view text) {
-  for (const char c : text) out += c == ',' || c == '\n' || c == '\r' ? ' ' : c;
+  for (const char c : text) out += c == ',' || is_control(c) ? ' ' : c;
 }
 
 }  // namespace

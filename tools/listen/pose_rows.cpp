@@ -74,7 +74,9 @@ std::vector<std::string> pose_columns() {
 }
 
 void write_pose_row(host::RowWriter& rows, const ReceivedPose& pose) {
-  rows.integer(pose.utime_us).text(pose.source).text(pose.target).integer(pose.station).text(pose.station_id);
+  using host::printable;
+  rows.integer(pose.utime_us).text(printable(pose.source)).text(printable(pose.target));
+  rows.integer(pose.station).text(printable(pose.station_id));
   if (pose.pose) {
     const Quaternion q = pose.pose->quaternion();
     rows.number(q.w()).number(q.x()).number(q.y()).number(q.z());
@@ -84,7 +86,7 @@ void write_pose_row(host::RowWriter& rows, const ReceivedPose& pose) {
   } else {
     rows.none(9);
   }
-  rows.text(pose.status).text(pose.flags);
+  rows.text(printable(pose.status)).text(printable(pose.flags));
   if (pose.pose) {
     rows.number(pose.rate_hz);
   } else {

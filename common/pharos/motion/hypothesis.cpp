@@ -45,6 +45,8 @@ constexpr double kSurpriseChi2 = 200.0;
 // Of coplanar sensors. Taken for a push, a sweep that is a millimetre off opens the attitude, and their tilt's side is
 // lost; it returns by chance.
 constexpr double kCoplanarSurpriseChi2 = 40.0;
+// Of a sweep that the next ones must agree with: one in 800 by noise alone, and as little as opens the filter.
+constexpr double kDoubtfulChi2 = 20.0;
 // Probability of the model of highest process noise from which on the body is shaken, and surprises are its own.
 constexpr double kAgitated = 0.3;
 // A body that a hand moves quickly has another attitude error in every sweep.
@@ -73,9 +75,13 @@ bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& predictio
   return innovation_of(fit.information, prediction.gate_covariance, Vector6::Zero()).chi2 > kRateResetChi2;
 }
 
-bool is_surprise(const SweepFit& fit, const StateEstimate& prediction) {
-  if (fit.sensors < kMinSensorsToJudge || fit.used.empty()) return false;
-  const double chi2 = innovation_of(fit.information, prediction.covariance, Vector6::Zero()).chi2;
+// Chi-squared of a sweep that can be judged, else zero.
+double chi2_of(const SweepFit& fit, const StateEstimate& prediction) {
+  if (fit.sensors < kMinSensorsToJudge || fit.used.empty()) return 0.0;
+  return innovation_of(fit.information, prediction.covariance, Vector6::Zero()).chi2;
+}
+
+bool is_surprise(const SweepFit& fit, double chi2) {
   return chi2 > kSurpriseChi2 || (chi2 > kCoplanarSurpriseChi2 && has_no_relief(fit));
 }
 
@@ -116,10 +122,10 @@ void Hypothesis::link(const StationFromStation& T_second_reference, const Matrix
 }
 
 const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                                 const AssumedNoise& noise, Observer observer) {
+                                 const AssumedNoise& noise, Observer observer, std::optional<Hypothesis>* without) {
   const std::int64_t time = std::max(time_ticks_, last_hit_ticks(bearings, *view.target));
   const double since_s = ticks_to_seconds(time - time_ticks_);
-  const bool quiet = filter_.probability().back() < kAgitated;
+  const bool quiet = filter_.probability().back() < kAgitated, was_steady = steady(filter_);
   predict(filter_, since_s);
   if (filter_.linked() && !surveyed_) inflate_relative_covariance(since_s);
   time_ticks_ = time;
@@ -132,7 +138,8 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   StateEstimate prediction = with_systematics(filter_, observer);
   fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   const bool contradicts = fit_.sensors >= kMinSensorsToJudge && exceeds_rate_reset_gate(fit_, prediction);
-  const bool surprises = contradicts || is_surprise(fit_, prediction);
+  const double chi2 = chi2_of(fit_, prediction);
+  const bool surprises = contradicts || is_surprise(fit_, chi2);
   Leaps& leaps_of_rotor = station_state.leaps[axis_index];
   bool& rotor_contradicted = station_state.contradicted[axis_index];
   const bool leapt = leaps(fit_, prediction, now, leaps_of_rotor.since_taken_s(time)) &&
@@ -142,6 +149,10 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   withheld_ = leapt || (quiet && surprises && !contradicted_ && !rotor_contradicted);
   const bool pushed = quiet && surprises && !withheld_ && sweeps_ > kSettled;
   contradicted_ = rotor_contradicted = surprises;
+  // Sweeps of a station of unknown calibration contradict one another without being wrong.
+  const bool doubtful = was_steady && !withheld_ && sweeps_ > kSettled && view.calibration != nullptr &&
+                        (surprises || chi2 > kDoubtfulChi2);
+  if (doubtful && without != nullptr) without->emplace(*this).leave_out();
   rates_reset_ = contradicts && !withheld_;
   if (rates_reset_) {
     filter_.reset_rates(since_s);
@@ -180,6 +191,14 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   state_estimate_ = with_systematics(filter_, observer);
   judge_tilt();
   return fit_;
+}
+
+// The last sweep, whose time it was predicted to: it is compared from here on with the one that took it.
+void Hypothesis::leave_out() {
+  withheld_ = diverged_ = true;
+  agreements_ = fitted_ = 0;
+  reset_cost();
+  state_estimate_ = with_systematics(filter_, observer_);
 }
 
 // Mirrored, coplanar sensors fit as well. Sensors with relief tell the side, once each rotor has seen them: one alone

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "pharos/lighthouse/bearing.hpp"
 #include "pharos/motion/cycle_information.hpp"
@@ -49,9 +50,11 @@ class Hypothesis {
              const StationView& view, const AssumedNoise& noise);
 
   /// Predicts to the sweep's time and adds it. A sweep none of whose hits fits changes nothing but the time.
-  /// `observer`: whose sweep; the second station's only once linked.
+  /// `observer`: whose sweep; the second station's only once linked. `without`: where given, becomes this hypothesis
+  /// without the sweep if a steady body's was taken and is doubtful: the body was pushed, or the sweep is wrong.
   const SweepFit& push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                       const AssumedNoise& noise, Observer observer = Observer::kReference);
+                       const AssumedNoise& noise, Observer observer = Observer::kReference,
+                       std::optional<Hypothesis>* without = nullptr);
   /// From here on sweeps of a second station count too (ImmFilter::link). `surveyed`: its pose was measured, so its
   /// covariance does not grow with time.
   void link(const StationFromStation& T_second_reference, const Matrix6& covariance, bool surveyed);
@@ -118,6 +121,7 @@ class Hypothesis {
     return station_states_[static_cast<std::size_t>(observer)];
   }
   Matrix6 systematic_covariance(const StationState& station_state, double range_m, const AssumedNoise& noise) const;
+  void leave_out();
   void judge_tilt();
   void dispute(bool leapt, bool in_doubt, bool pushed);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,

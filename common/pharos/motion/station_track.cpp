@@ -21,6 +21,8 @@ constexpr int kMaxConsecutiveRejections = 2;  // sweeps that contradict a track;
 constexpr double kDecided = 18.0;
 // Sweeps that an alternative started in flight needs to estimate its rates before it is compared.
 constexpr int kSettleSweeps = 6;
+// Sweeps after a doubtful one, three of each rotor, that tell whether the body was pushed or the sweep was wrong.
+constexpr int kDoubtSweeps = 6;
 // Squared distance (6 degrees of freedom) from which a solved cycle contradicts the track.
 constexpr double kContradiction = 40.0;
 // Squared distance (6 degrees of freedom) up to which an alternative is the best hypothesis itself.
@@ -67,14 +69,20 @@ bool same_pose(const Hypothesis& best, const Hypothesis& alternative) {
 
 void StationTrack::lose() {
   best_.reset();
-  alternative_.reset();
+  drop_alternative();
   refusal_ = pose::Refusal::kTooFewSensors;
+}
+
+void StationTrack::drop_alternative() {
+  alternative_.reset();
+  doubt_sweeps_ = 0;
 }
 
 void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                         const AssumedNoise& noise) {
   if (!best_) return;
-  best_->push(bearings, axis, view, noise);
+  const bool may_doubt = !alternative_ || doubt_sweeps_ > 0;
+  best_->push(bearings, axis, view, noise, Observer::kReference, may_doubt ? &alternative_ : nullptr);
   const Matrix6& covariance = best_->state_estimate().covariance;
   if (!(covariance.topLeftCorner<3, 3>().trace() < kLostTrackRotation_rad * kLostTrackRotation_rad) ||
       !(covariance.bottomRightCorner<3, 3>().trace() < kLostTrackPosition_m * kLostTrackPosition_m)) {
@@ -82,11 +90,34 @@ void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, co
     return;
   }
   if (!alternative_) return;
+  // An alternative of an earlier doubt has not counted this sweep yet: this is a new one, in its place, as a body that
+  // is steady again has borne the earlier doubt out.
+  if (may_doubt && alternative_->sweeps() == best_->sweeps()) {
+    best_->reset_cost();
+    alternative_settled_ = false;
+    doubt_sweeps_ = kDoubtSweeps;
+    return;
+  }
   alternative_->push(bearings, axis, view, noise);
   decide();
 }
 
+// A pushed body moves on as the sweep said; after a wrong one the next sweeps agree with the motion before it. The
+// hypothesis that took it needs the benefit of the doubt: its wide covariance holds both.
+void StationTrack::decide_doubt() {
+  --doubt_sweeps_;
+  if (delta_chi2() < -kAmbiguousDeltaChi2) {
+    std::swap(best_, alternative_);
+    if (alternative_->withheld()) best_->confirm_anew();
+  }
+  if (doubt_sweeps_ == 0 || delta_chi2() > kDecided) drop_alternative();
+}
+
 void StationTrack::decide() {
+  if (doubt_sweeps_ > 0) {
+    decide_doubt();
+    return;
+  }
   if (!alternative_settled_) {
     if (alternative_->sweeps() < kSettleSweeps) return;
     alternative_settled_ = true;
@@ -98,7 +129,7 @@ void StationTrack::decide() {
     std::swap(best_, alternative_);
     if (alternative_->withheld()) best_->confirm_anew();
   }
-  if (delta_chi2() > kDecided || same_pose(*best_, *alternative_)) alternative_.reset();
+  if (delta_chi2() > kDecided || same_pose(*best_, *alternative_)) drop_alternative();
 }
 
 bool StationTrack::due() const {
@@ -163,7 +194,7 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
   // Where sweep after sweep contradicts the track while a whole cycle can be solved, the track is dropped.
   if (!best_ || best_->consecutive_rejections() >= kMaxConsecutiveRejections) {
     begin(best_, e.pose);
-    alternative_.reset();
+    drop_alternative();
     if (e.second) begin(alternative_, e.second->pose);
     alternative_settled_ = true;
     if (alternative_) decide();

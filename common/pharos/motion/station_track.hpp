@@ -13,8 +13,8 @@ namespace pharos::motion {
 
 /// Track of one station: the best hypothesis, and at times an alternative.
 ///
-/// An alternative is the second minimum of the first solution, or the solution of a cycle solved alone that contradicts
-/// the best one. Both take every sweep; the likelihood decides.
+/// An alternative is the second minimum of the first solution, the solution of a cycle solved alone that contradicts
+/// the best one, or the best one without a doubtful sweep. Both take every sweep; the likelihood decides.
 class StationTrack {
  public:
   void push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const AssumedNoise& noise);
@@ -35,9 +35,13 @@ class StationTrack {
   bool due() const;
   bool agrees(const LighthouseFromBody& pose, const Matrix6& covariance) const;
   void decide();
+  void decide_doubt();
+  void drop_alternative();
 
   std::optional<Hypothesis> best_, alternative_;
   bool alternative_settled_ = false;
+  // Sweeps by which the alternative, if it is the best one without a doubtful sweep, is still judged.
+  int doubt_sweeps_ = 0;
   int cycles_unchecked_ = 0;
   // The last cycle solved alone without an alternative.
   std::optional<LighthouseFromBody> solved_;

@@ -9,6 +9,7 @@
 #include "host/daemon/fusion/pose_intake.hpp"
 #include "host/publish/words.hpp"
 #include "host/receive/message_shape.hpp"
+#include "host/receive/message_values.hpp"
 #include "host/support/printable.hpp"
 #include "host/support/time_units.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
@@ -17,40 +18,18 @@
 namespace pharos::host {
 namespace {
 
-// 2096: times up to here are safe in nanoseconds.
-constexpr std::int64_t kMaxTime_us = 4'000'000'000'000'000;
 // A pose may seem to be measured in the future by so many sigmas of the clocks' relation, and by this.
 constexpr std::int64_t kAheadSigmas = 5;
 constexpr std::int64_t kAhead_ns = 1'000'000;
-constexpr double kMaxUnitError = 1e-3;
 constexpr double kMaxAsymmetry = 1e-9;  // of a covariance, relative; as fusion::check_measurement
 constexpr std::size_t kMaxText = 64;    // of a foreign message, that is told
 
-template <std::size_t N>
-bool finite(const double (&values)[N]) {
-  return std::all_of(std::begin(values), std::end(values), [](double value) { return std::isfinite(value); });
-}
-
-bool is_unit(const double (&wxyz)[4]) {
-  return finite(wxyz) && std::abs(Quaternion(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).norm() - 1.0) <= kMaxUnitError;
-}
-
-bool is_pose(const pose_t& message) {
-  if (!finite(message.position_m) || !is_unit(message.orientation_wxyz)) return false;
-  if (message.has_second == 0) return true;
-  return finite(message.second_position_m) && is_unit(message.second_orientation_wxyz) &&
-         std::isfinite(message.second_delta_chi2);
-}
-
 bool is_positive(const double (&values)[36]) {
-  if (!finite(values)) return false;
   Matrix6 covariance;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) covariance(i, j) = values[6 * i + j];
   }
-  for (int i = 0; i < 6; ++i) {
-    if (!(covariance(i, i) > 0.0)) return false;
-  }
+  if (!covariance.allFinite() || !(covariance.diagonal().array() > 0.0).all()) return false;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < i; ++j) {
       const double scale = std::sqrt(covariance(i, i)) * std::sqrt(covariance(j, j));
@@ -125,16 +104,13 @@ RemoteOutcome RemoteIntake::judge(pose_t& message, std::span<const std::uint8_t>
     return RemoteOutcome::poses_without_answer;
   }
   if (is_doubtful(message)) return RemoteOutcome::poses_doubtful;
-  if (!is_pose(message)) return RemoteOutcome::poses_not_finite;
   if (!is_positive(message.covariance)) return RemoteOutcome::poses_covariance;
+  if (!is_possible(message)) return RemoteOutcome::poses_not_finite;
   return put_on_own_clock(message, peer, now_ns, clock.utc_ns());
 }
 
 RemoteOutcome RemoteIntake::put_on_own_clock(pose_t& message, const PeerClock* peer, std::int64_t now_ns,
                                              std::int64_t utc_ns) {
-  if (message.utime < 0 || message.utime > kMaxTime_us) {
-    return message.utime < 0 ? RemoteOutcome::poses_late : RemoteOutcome::poses_ahead;
-  }
   std::int64_t own_ns = message.utime * kNsPerUs;
   std::int64_t sigma_ns = std::llround(config_.clock_sigma_s.value_or(0.0) * static_cast<double>(kNsPerSecond));
   if (peer != nullptr) {

@@ -30,7 +30,7 @@ namespace pharos::host {
   X(poses_doubled, "while two publishers send under one name")                         \
   X(poses_without_answer, "refusals of the source")                                    \
   X(poses_doubtful, "flagged uncalibrated, suspect or clock_set")                      \
-  X(poses_not_finite, "a number that is none, or a quaternion that is no rotation")    \
+  X(poses_not_finite, "values that no pharosd sends: no number, no rotation, no time") \
   X(poses_covariance, "a covariance that is not positive definite")                    \
   X(poses_no_clock, "while the other daemon's clock is not known")                     \
   X(poses_late, "older than max_age_s")                                                \

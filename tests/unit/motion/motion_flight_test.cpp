@@ -244,6 +244,40 @@ TEST(MotionFlight, AShakenBodyIsKnownAsWellAsItSays) {
   EXPECT_LT(refused, score.answers / 100);
 }
 
+// Largest stated rotation of the third to tenth answer from a sweep on that has six sensors and more, a second after
+// the start, and whose hits are all shifted by so much.
+double stated_after_rad(std::uint64_t seed, std::int32_t shift_half_ticks) {
+  constexpr double kSpoiled_s = 2.0;  // the counter starts at one second
+  int answers = -1;
+  double worst_rad = 0.0;
+  test::fly(
+      test::manoeuvre(1.3, 0.4, 40.0, seed), seed,
+      [&](const test::FlightSample& answer) {
+        if (answers >= 0) ++answers;
+        if (answers < 3 || answers > 10) return;
+        ASSERT_TRUE(answer.result->pose) << seed;
+        worst_rad = std::max(worst_rad, answer.result->pose->sigma_rotation_rad());
+      },
+      [&](lighthouse::Sweep& sweep) {
+        if (answers >= 0 || ticks_to_seconds(sweep.flash.start_ticks) < kSpoiled_s || sweep.hits.size() < 6) return;
+        answers = 0;
+        for (lighthouse::Hit& hit : sweep.hits) hit.centre_half_ticks += shift_half_ticks;
+      });
+  return worst_rad;
+}
+
+// Taken for a push it left the filter open for tens of sweeps: wide gates, rates that are not the body's, and the next
+// wrong sweep was followed. The sweeps after it show that there was no push.
+TEST(MotionFlight, ASweepThatIsAMillimetreOffDoesNotOpenTheFilter) {
+  constexpr std::int32_t kHalfMilliradian_half_ticks = 120;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const double sound_rad = stated_after_rad(seed, 0);
+    for (const std::int32_t shift : {-kHalfMilliradian_half_ticks, kHalfMilliradian_half_ticks}) {
+      EXPECT_LT(stated_after_rad(seed, shift), 1.3 * sound_rad) << seed;
+    }
+  }
+}
+
 TEST(MotionFlight, PredictsAheadWithGrowingCovarianceAndThenNotAtAll) {
   const sim::LighthouseScenario scenario = test::manoeuvre(3.0, 0.5, 60.0, 3);
   sim::LighthouseSimulator simulator(scenario, 3);

@@ -44,6 +44,26 @@ TEST(FaultyTarget, AWrongTimeNowAndThenDoesNotTiltCoplanarSensors) {
   EXPECT_GT(count.ok, 0.9 * count.answers);
 }
 
+// With a fifth sensor in sight such a sweep was taken: it left the filter open when the next, larger one came, or the
+// fifth sensor went out of sight.
+TEST(FaultyTarget, AWrongSweepNowAndThenDoesNotOpenTheFilterForTheNextOne) {
+  struct Flight {
+    Fault fault;
+    double onset_s;
+    std::uint64_t seed;
+  };
+  constexpr std::array<Flight, 5> kFlights{{{Fault::kWrongTimes, 2.0, 13211},
+                                            {Fault::kWrongTimes, 0.0, 13211},
+                                            {Fault::kWrongTimes, 0.0, 12059},
+                                            {Fault::kShiftedHits, 0.0, 12085},
+                                            {Fault::kShiftedSweeps, 0.0, 14237}}};
+  for (const Flight& flight : kFlights) {
+    const Count count = score_of(flight.fault, 0.01, flight.onset_s, flight.seed, flight.seed);
+    EXPECT_EQ(count.wrong, 0);
+    EXPECT_GT(count.ok, 0.9 * count.answers);
+  }
+}
+
 // common/pharos/motion/README.md has how many answers are left over many more flights.
 TEST(FaultyTarget, ShiftedHitsOftenAreSuspected) {
   for (const Fault fault : {Fault::kShiftedSweeps, Fault::kShiftedHits, Fault::kSteadyOffset}) {

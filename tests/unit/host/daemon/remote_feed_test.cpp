@@ -256,7 +256,9 @@ TEST_F(Remotes, ForeignAndDamagedMessagesAreCountedAndNotUsed) {
   poses(1, [](pose_t& m) { m.position_m[1] = std::numeric_limits<double>::quiet_NaN(); });
   poses(1, [](pose_t& m) { m.orientation_wxyz[0] = 0.0; });
   poses(1, [](pose_t& m) { m.has_second = 1; });
-  EXPECT_EQ(counter("poses_not_finite"), 3);
+  poses(1, [](pose_t& m) { m.position_m[2] = 1e30; });
+  poses(1, [](pose_t& m) { m.sigma_pos_m = -1.0; });
+  EXPECT_EQ(counter("poses_not_finite"), 5);
   poses(1, [](pose_t& m) { m.covariance[0] = -1e-6; });
   poses(1, [](pose_t& m) { m.covariance[1] = m.covariance[6] = 2e-6; });
   poses(1, [](pose_t& m) { m.covariance[1] = 1e-7; });

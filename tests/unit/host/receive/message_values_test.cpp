@@ -61,6 +61,11 @@ TEST(MessageValues, OfAPoseAreFiniteWithAUnitQuaternionAndVariances) {
                                           [](pose_t& m) { m.sigma_rot_rad = kNan; },
                                           [](pose_t& m) { m.residual_rms_rad = kInf; },
                                           [](pose_t& m) { m.has_second = 1; },  // a quaternion of zeros
+                                          [](pose_t& m) {
+                                            m.has_second = 1;
+                                            m.second_orientation_wxyz[0] = 1.0;
+                                            m.second_delta_chi2 = kNan;
+                                          },
                                           [](pose_t& m) { m.utime = -1; },
                                           [](pose_t& m) { m.utime = std::numeric_limits<std::int64_t>::max(); },
                                           [](pose_t& m) { m.sequence = -1; },

@@ -55,6 +55,12 @@ TEST(RowWriter, WritesTheSameNamesAsJsonLines) {
             "{\"x\":null,\"n\":3,\"status\":\"a,b\\\"\\u000a\",\"y\":null}\n");
 }
 
+TEST(RowWriter, ATextHasNoCharacterThatATerminalObeys) {
+  const auto fill = [](RowWriter& writer) { writer.text("a\x1b[2J\x07\x7f\tb").end_row(); };
+  EXPECT_EQ(written(RowFormat::kCsv, {"a"}, fill), "a\na [2J   b\n");
+  EXPECT_EQ(written(RowFormat::kJson, {"a"}, fill), "{\"a\":\"a\\u001b[2J\\u0007\\u007f\\u0009b\"}\n");
+}
+
 TEST(RowWriter, WhatIsEmptyInCsvIsNullInJson) {
   const auto fill = [](RowWriter& writer) { writer.text("").none().text("x").end_row(); };
   EXPECT_EQ(written(RowFormat::kCsv, {"a", "b", "c"}, fill), "a,b,c\n,,x\n");

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -42,6 +44,30 @@ TEST(ListenSummary, CountsLossesByGapsAndNotARestart) {
   ASSERT_EQ(summary.sources().size(), 1u);
   EXPECT_EQ(summary.sources()[0].lost, 3);
   EXPECT_EQ(summary.poses(), 6);
+}
+
+// Whoever reaches LCM chooses the texts.
+TEST(PoseRows, ATableHasNoEscapeSequenceOfAnother) {
+  for (const host::RowFormat format : {host::RowFormat::kCsv, host::RowFormat::kJson}) {
+    char* text = nullptr;
+    std::size_t size = 0;
+    std::FILE* stream = open_memstream(&text, &size);
+    {
+      host::RowWriter rows(stream, format, pose_columns());
+      ReceivedPose received = pose(1);
+      received.source = received.target = received.station_id = received.status = received.flags =
+          "\x1b[2J\xc2\x9b"
+          "1m\xff\x7f\n";
+      write_pose_row(rows, received);
+    }
+    std::fclose(stream);
+    const std::string table(text, size);
+    std::free(text);
+    EXPECT_THAT(table, HasSubstr("?[2J??1m???"));
+    const auto is_plain = [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); };
+    EXPECT_TRUE(std::all_of(table.begin(), table.end(), is_plain)) << table;
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), format == host::RowFormat::kCsv ? 2 : 1);
+  }
 }
 
 TEST(ListenSummary, ThreeSourcesOnOneTargetAreThreeRows) {
