@@ -15,6 +15,9 @@ namespace {
 
 // A contour of which less has edges is partly hidden or outside the image.
 constexpr double kWhole = 0.8;
+// Of the smaller axis: what both must be known to, and by how many sigmas where a part of the contour tells the whole.
+constexpr double kAxisTolerance = 0.1;
+constexpr double kDeterminedSigmas = 5.0;
 // Of the points, so many must be left where those beside gaps are not used.
 constexpr double kMinKept = 0.55;
 // Smaller contours may be cut without a gap that shows it.
@@ -89,11 +92,14 @@ class FitCheck {
   // outside the image, the rest must say what the whole is: five sigmas, the most that a fit is off, stay within that
   // tenth. Beyond the border the score asks for nothing: there the arcs must turn by as much as a lone one.
   bool is_determined() const {
-    constexpr double kTolerance = 0.1, kSigmas = 5.0;
-    const double limit = kTolerance * fit_.ellipse.b_px / (support_.length_fraction < kWhole ? kSigmas : 1.0);
     const double turn_rad = 2.0 * std::numbers::pi * support_.turn_fraction;
-    return fit_.covariance(2, 2) <= limit * limit && fit_.covariance(3, 3) <= limit * limit &&
+    return knows_axes(fit_, support_.length_fraction < kWhole ? kDeterminedSigmas : 1.0) &&
            (support_.inside_fraction == 1.0 || turn_rad >= static_cast<double>(kMinTurnAlone_rad));
+  }
+
+  static bool knows_axes(const RefinedFit& fit, double sigmas) {
+    const double limit = kAxisTolerance * fit.ellipse.b_px / sigmas;
+    return fit.covariance(2, 2) <= limit * limit && fit.covariance(3, 3) <= limit * limit;
   }
 
   // Where something hides a contour, its edge bends into the other's within the blur: the points there are left out.
@@ -106,7 +112,8 @@ class FitCheck {
 
   // What covers a contour may end along it: its edge, of another step, then counts as the contour's. The fit without
   // the points of other steps, and of where they begin, is taken where it is another one or its points agree better;
-  // else half of what it would change counts as an error.
+  // else half of what it would change counts as an error. A rest that does not tell the axes by itself differs by its
+  // own noise, and says nothing.
   void leave_other_steps(double rms_px) {
     const auto apart = fit_without(near_other_steps(median_square(), kOtherStep));
     if (!apart) return;
@@ -116,7 +123,7 @@ class FitCheck {
         apart->rms_px < kOfOneStep * rms_px || moved > kMaxByNoise * apart->covariance.topLeftCorner<4, 4>().trace();
     if (is_other) {
       take(*apart);
-    } else {
+    } else if (knows_axes(*apart, kDeterminedSigmas)) {
       add_half_of(change);
     }
   }
@@ -126,7 +133,8 @@ class FitCheck {
   void add_steps_that_jump() {
     const float median = median_square();
     if (!steps_jump(median)) return;
-    if (const auto apart = fit_without(near_other_steps(median, kOtherStepAtJump))) {
+    const auto apart = fit_without(near_other_steps(median, kOtherStepAtJump));
+    if (apart && knows_axes(*apart, kDeterminedSigmas)) {
       add_half_of(change_to(apart->ellipse));
     }
   }

@@ -16,7 +16,7 @@ struct LightProfile {
 
 /// Samples of 1 px along `direction` (unit), 2 (search_px + kProfileReach_px) + 1 of them about `middle`. Dark pixels
 /// without depth count as no light. False where the profile leaves the image, or where a pixel has light (more than
-/// `dark_counts`, or all that it holds) but no depth.
+/// `dark_counts`, or all that it holds) but no depth, and its neighbours do not tell it (mixed_pixel.hpp).
 bool sample_light(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const DepthPlane& plane,
                   const Vector2& middle, const Vector2& direction, int search_px, double dark_counts,
                   LightProfile& profile);

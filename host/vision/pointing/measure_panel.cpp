@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/vision/pointing/hypothesis_choice.hpp"
 #include "host/vision/pointing/outline.hpp"
-#include "host/vision/pointing/panel_hypothesis.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::pointing {

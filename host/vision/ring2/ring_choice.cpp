@@ -40,6 +40,8 @@ constexpr double kPlainRing = 0.3, kFaintRing = 0.1;
 // Of the other one's evidence, from which on a front circle is the ring though its own sigmas, those of a half dark
 // contour, would hold the other as well.
 constexpr double kAsPlainRing = 0.7;
+// No ring's face is wider than this fraction of its radius: edges farther apart are of two rings.
+constexpr double kMaxFaceWidth = 0.15;
 // Maximum distance of the centres across the axis for circles on one axis, as a fraction of the radius.
 constexpr double kAsidePerRadius = 0.01;
 // A circle that differs from a known size by more than this number of sigmas is another one.
@@ -150,6 +152,15 @@ bool is_before(const FollowedHypothesis& f, const FollowedHypothesis& of) {
   return ahead_m(f, of) > std::max(kSameCentre_m, 3.0 * std::sqrt(centre_variance(of)));
 }
 
+// Whether it is another ring in front, of which too little is known to hold the other one's place: the answer would be
+// that of a groove, known to a millimetre, in the face behind a ring that a boom and shadow disturb. Edges of one face
+// may be mixed up instead, which says nothing of what is in front.
+bool is_other_ring_before(const FollowedHypothesis& f, const FollowedHypothesis& of) {
+  const double radius_m = f.estimate.ring_radius_m, of_m = of.estimate.ring_radius_m;
+  return std::abs(radius_m - of_m) > kMaxFaceWidth * std::max(radius_m, of_m) && is_before(f, of) &&
+         ring_evidence(f) > kPlainRing * ring_evidence(of) && is_nested(of.estimate, f.estimate);
+}
+
 // A ring that is no candidate, as too much of it is hidden or dark, may still stand in front of one that is: that is
 // then its foot or a groove.
 bool may_stand_before(const FollowedHypothesis& f, const FollowedHypothesis& best, const RingSizes& sizes) {
@@ -193,8 +204,9 @@ RingDecision decide(const ring2::Rig& rig, std::span<const FollowedHypothesis> f
   double least = kAmbiguousDeltaChi2;
   for (const FollowedHypothesis& f : followed) {
     if (f.hypothesis.has_nozzle != decision.best->hypothesis.has_nozzle) continue;
-    const bool is_rival =
-        is_candidate(f, sizes) ? !is_same_answer(f, *decision.best) : may_stand_before(f, *decision.best, sizes);
+    const bool is_rival = is_candidate(f, sizes)
+                              ? !is_same_answer(f, *decision.best) || is_other_ring_before(f, *decision.best)
+                              : may_stand_before(f, *decision.best, sizes);
     if (!is_rival) continue;
     const double delta = std::max(0.0, delta_chi2(rig, *decision.best, f));
     if (delta >= least) continue;

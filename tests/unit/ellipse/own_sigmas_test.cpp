@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/unit/ellipse/ring_frames.hpp"
 #include "tools/evaluation/problems/drawn_ellipses.hpp"
@@ -132,6 +133,42 @@ TEST(OwnSigmas, APolygonThatEndsAlongTheContour) {
     }
   }
   EXPECT_GE(reported, 1);
+}
+
+test::Polygon sector_at(double u, double v, double from, double to) {
+  test::Polygon polygon;
+  polygon.corners_px.push_back({u, v});
+  for (int k = 0; k <= 6; ++k) {
+    const double angle = from + (to - from) * k / 6.0;
+    polygon.corners_px.push_back({u + 75.0 * std::cos(angle), v + 75.0 * std::sin(angle)});
+  }
+  return polygon;
+}
+
+// The step along the contour changes with what lies behind; no part of one step tells the whole.
+TEST(OwnSigmas, APartlyHiddenContourBeforePatchesOfFoil) {
+  constexpr int kPatches = 5;
+  constexpr double kPatch = 2.0 * std::numbers::pi / kPatches;
+  int reported = 0;
+  for (std::uint64_t seed = 1; seed <= kPictures; ++seed) {
+    Picture picture(seed);
+    Drawing drawing(kSide_px, kSide_px, 0.1);
+    const double turn = picture.uniform(0.0, 6.0);
+    for (int k = 0; k < kPatches; ++k) {
+      drawing.fill(sector_at(50.0, 50.0, turn + k * kPatch, turn + (k + 1) * kPatch), 0.1 + 0.12 * (k % 4));
+    }
+    const double b = picture.uniform(25.0, 30.0);
+    const TrueEllipse e{50.0, 50.0, b * picture.uniform(1.0, 1.3), b, picture.uniform(-1.5, 1.5)};
+    drawing.fill(e, 0.8);
+    const double at = picture.uniform(0.0, 6.0);
+    drawing.fill(sector_at(50.0, 50.0, at, at + picture.uniform(1.4, 1.9)), picture.uniform(0.05, 0.15));
+    for (const DetectedEllipse& found : picture.detect(drawing, 1.0)) {
+      if (!found.bright_inside || found.ellipse.b_px < 0.7 * b) continue;
+      expect_within_sigmas(found, e, seed);
+      ++reported;
+    }
+  }
+  EXPECT_GE(reported, 9 * kPictures / 10);
 }
 
 TEST(OwnSigmas, PolygonsInNoiseAreNone) {

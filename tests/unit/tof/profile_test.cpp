@@ -67,7 +67,14 @@ class SampleLightTest : public testing::Test {
     frame_.height_px = camera_.intrinsics.height_px;
     const auto pixels = static_cast<std::size_t>(frame_.width_px * frame_.height_px);
     frame_.intensity.assign(pixels, 4000);
-    frame_.depth.assign(pixels, static_cast<std::uint16_t>(3.0 / camera_.depth_scale_m + 0.5));
+    frame_.depth.assign(pixels, counts_of(3.0));
+  }
+  std::size_t at(int u, int v) const { return static_cast<std::size_t>(v * frame_.width_px + u); }
+  std::uint16_t counts_of(double z_m) const { return static_cast<std::uint16_t>(z_m / camera_.depth_scale_m + 0.5); }
+  void lose_depth(int first_u, int last_u) {
+    for (int v = 0; v < frame_.height_px; ++v) {
+      for (int u = first_u; u <= last_u; ++u) frame_.depth[at(u, v)] = 0;
+    }
   }
   bool sample(const Vector2& middle) {
     return sample_light(frame_.view(), camera_, *rays_, DepthPlane{Vector3::UnitZ() / 3.1}, middle, Vector2::UnitX(),
@@ -89,10 +96,28 @@ TEST_F(SampleLightTest, IsAmplitudeTimesHeightOverThePlane) {
 
 TEST_F(SampleLightTest, FailsAtTheBorderAndAtLightWithoutDepth) {
   EXPECT_FALSE(sample(Vector2(3.0, 120.0)));
-  frame_.depth[static_cast<std::size_t>(120 * frame_.width_px + 161)] = 0;
+  lose_depth(161, 170);
   EXPECT_FALSE(sample(Vector2(160.0, 120.0)));
-  frame_.intensity[static_cast<std::size_t>(120 * frame_.width_px + 161)] = 100;  // dark: no light, no depth needed
+  for (int u = 161; u <= 170; ++u) {  // dark: no light, no depth needed
+    frame_.intensity[at(u, 120)] = frame_.intensity[at(u, 121)] = 100;
+  }
   EXPECT_TRUE(sample(Vector2(160.0, 120.0)));
+}
+
+// Foil as bright as the ring behind its edge, and a camera that gives no depth where two surfaces share a pixel.
+TEST_F(SampleLightTest, TheEdgeOfTwoSurfacesOfOneBrightnessIsTheMiddleOfThePixelsWithoutDepth) {
+  for (const int width : {1, 2, 3, 4}) {
+    SetUp();
+    for (int v = 0; v < frame_.height_px; ++v) {
+      for (int u = 161; u < frame_.width_px; ++u) frame_.depth[at(u, v)] = counts_of(3.1);
+    }
+    lose_depth(161 - width / 2, 160 - width / 2 + width);
+    const double edge = 160.5 - width / 2 + 0.5 * width, middle = 160.7;
+    ASSERT_TRUE(sample(Vector2(middle, 120.0)));
+    const auto found = steepest_of_samples(light_of_layer(profile_, kSearch_px, 0.1, 0.0), kSearch_px, -1.0);
+    ASSERT_GT(found.strength, 0.0) << width;
+    EXPECT_NEAR(middle + found.offset_px, edge, 0.1) << width;
+  }
 }
 
 }  // namespace

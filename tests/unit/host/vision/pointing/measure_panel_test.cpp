@@ -172,6 +172,46 @@ TEST(MeasurePanel, ABodysOutlineDoesNotAnswerForAPanelThatNothingConfirms) {
   }
 }
 
+// Two panels of one axis with a gap between them, `length_m` each, from the middle of the first one on.
+host::GreyImage wing_image(PaintedPanel panel, double length_m, double gap_m) {
+  panel.length_m = length_m;
+  const host::GreyImage first = panel.image();
+  const Vector3 step_m =
+      (length_m + gap_m) * (pointing::camera_to_station(panel.sight).transpose() * panel.axis_station);
+  panel.shift_m += step_m.head<2>();
+  panel.range_m += step_m.z();
+  return over(first, panel.image());
+}
+
+// Pieces of a body's two sides beside its wings are in line as a wing's panels are. A panel that is longer than either
+// of them makes the answer ambiguous; a shorter one is a part of the body.
+TEST(MeasurePanel, ALongerPanelCompetesWithAWing) {
+  PaintedPanel wing = near_panel(0.0);
+  wing.set_axis(0.1, 0.55);
+  wing.width_m = 1.4;
+  wing.shift_m = {-3.5, 2.6};
+  PaintedPanel lone = near_panel(0.0);
+  lone.set_axis(0.1 + 0.5 * kPi, 0.6);
+  lone.width_m = 1.5;
+  lone.shift_m = {0.0, -1.8};
+  const host::GreyImage two = wing_image(wing, 3.0, 0.9);
+  const auto without = measure_panel(two.view(), wing.camera);
+  ASSERT_TRUE(without.ok()) << name_of(without.error());
+  EXPECT_EQ(without->panels, 2);
+  const auto answer_beside = [&](double length_m) {
+    lone.length_m = length_m;
+    const auto panel = measure_panel(over(two, lone.image()).view(), wing.camera);
+    EXPECT_TRUE(panel.ok());
+    return answer_of(*panel, wing.sight);
+  };
+  const PointingResult beside_longer = answer_beside(4.2);
+  ASSERT_TRUE(beside_longer.second_axis.has_value());
+  EXPECT_LT(angle_between(beside_longer.axis.axis, wing.axis_station) * kDegPerRad, 0.5);
+  EXPECT_LT(angle_between(*beside_longer.second_axis, lone.axis_station) * kDegPerRad, 0.5);
+  const PointingResult beside_shorter = answer_beside(2.6);
+  EXPECT_FALSE(beside_shorter.second_axis.has_value());
+}
+
 // A panel that its body hides at one end: a round shape before it.
 host::GreyImage with_a_hidden_end(const PaintedPanel& panel, host::GreyImage image) {
   const auto whole = measure_panel(image.view(), panel.camera);

@@ -57,6 +57,22 @@ TEST(RingChoice, AMixtureOfEdgesInFrontIsNotTheRing) {
   EXPECT_EQ(decision.rival, nullptr);
 }
 
+// Its own place is hardly known, but it is no edge of the groove's face: whatever is mixed up, it is another ring.
+TEST(RingChoice, AWiderRingInFrontWhoseSigmasHoldAGrooveMakesItAmbiguous) {
+  const auto with_radius = [](FollowedHypothesis f, double radius_m) {
+    f.estimate.ring_radius_m = f.hypothesis.model.radius_m = radius_m;
+    return f;
+  };
+  std::vector<FollowedHypothesis> all = {ring_at(0.0, 780.0, 0.0015), with_radius(ring_at(-0.009, 380.0, 0.008), 0.4)};
+  RingDecision decision = decision_of(all);
+  EXPECT_EQ(decision.best, &all[0]);
+  EXPECT_EQ(decision.rival, &all[1]);
+  all[1] = with_radius(ring_at(-0.009, 380.0, 0.008), 0.36);  // its own face's other edge
+  EXPECT_EQ(decision_of(all).rival, nullptr);
+  all[1] = with_radius(ring_at(0.009, 380.0, 0.008), 0.4);  // behind it
+  EXPECT_EQ(decision_of(all).rival, nullptr);
+}
+
 // Too disturbed to be the answer, and too plain not to be there.
 TEST(RingChoice, ADisturbedRingInFrontMakesAGrooveAmbiguous) {
   const std::vector<FollowedHypothesis> all = {ring_at(0.045, 740.0, 0.003), ring_at(0.0, 310.0, 0.009)};

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/pointing/panel_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/vision/pointing/plane_region.hpp"
+
+namespace pharos::pointing {
+namespace {
+
+// Of the panel's length: what a third edge needs to be told from an accident.
+constexpr double kMinThirdEdge = 0.15;
+constexpr double kThirdEdgeReach_px = 4.0;
+constexpr double kThirdEdgeOff = 0.02;  // of the panel's length: what lens and fit leave of one line
+constexpr double kMaxSlackOfWidth = 0.5;
+constexpr double kOneLine_px = 1.0;  // what a wing's hinges and lens leave of one line, measured
+// Pieces of one edge that are nearer were joined; a body between a wing's panels is wider.
+constexpr double kMinGap_px = 10.0;
+constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
+
+double line_slack_px(const Segment& own) { return kThirdEdgeReach_px + kThirdEdgeOff * own.length(); }
+
+// In line with an edge and beyond its end.
+bool is_beyond(const Segment& edge, const Segment& own) {
+  const double at = own.station(edge.middle());
+  return (at < 0.0 || at > own.length()) && std::abs(own.offset(edge.middle())) < line_slack_px(own);
+}
+
+}  // namespace
+
+Vector3 ray_of(const Vector2& place_px, const PinholeCamera& camera) {
+  return {(place_px.x() - camera.cx_px) / camera.fx_px, (place_px.y() - camera.cy_px) / camera.fy_px, 1.0};
+}
+
+bool PanelEvidence::is_confirmed(const PanelHypothesis& h) const {
+  if (h.axis.sigma_rad() > kUnsureSigma_rad) return true;
+  if (is_interrupted(h)) return false;
+  return is_in_line(h) || (corners_close(h) && (has_square_ends(h) || is_end_of_plane(h)));
+}
+
+// A plane region with one end. That end tests nothing by itself: a direction square to the axis lies in any plane.
+bool PanelEvidence::is_end_of_plane(const PanelHypothesis& h) const {
+  return !h.measurement.short_planes.empty() && is_one_plane(image_, target_, h.pairs.front());
+}
+
+bool PanelEvidence::is_in_line(const PanelHypothesis& h) const {
+  return h.is_wing() ||
+         std::any_of(outline_.begin(), outline_.end(), [&](const Segment& edge) { return is_third(h, edge); });
+}
+
+// A side goes on without a gap or a step, at an angle that kept it from being joined: something stands out of one
+// outline there, as a panel does on its body. Between a wing's panels is a gap, or their body's edge, with steps.
+bool PanelEvidence::is_interrupted(const PanelHypothesis& h) const {
+  if (h.is_wing()) return false;
+  const auto goes_on = [&](const Segment& own, const Segment& edge) {
+    if (edge.length() < kMinThirdEdge * own.length() || !is_beyond(edge, own)) return false;
+    const bool after = own.station(edge.middle()) > own.length();
+    const Vector2& near = after ? edge.begin : edge.end;
+    return (after ? own.station(near) - own.length() : -own.station(near)) < kMinGap_px &&
+           std::abs(own.offset(near)) < kMinStep_px;
+  };
+  return std::any_of(outline_.begin(), outline_.end(),
+                     [&](const Segment& edge) { return goes_on(h.sides[0], edge) || goes_on(h.sides[1], edge); });
+}
+
+// An edge in line with one of the panel's own that runs along its axis: the other panel's, where that is half hidden.
+bool PanelEvidence::is_third(const PanelHypothesis& h, const Segment& edge) const {
+  const EdgePair& pair = h.pairs.front();
+  if (edge.length() < kMinThirdEdge * pair.middle.length()) return false;
+  const auto is_own = [&](const Segment& own) { return edge.begin == own.begin && edge.end == own.end; };
+  if (is_own(pair.first) || is_own(pair.second)) return false;
+  // As near to a narrow pair's other side, or to anything that hides its end, it is in line by accident: a boom's.
+  if (line_slack_px(pair.middle) > kMaxSlackOfWidth * pair.separation) return false;
+  // In line with one of them and beyond its end: beside it a body's edges are as parallel.
+  if (!is_beyond(edge, pair.first) && !is_beyond(edge, pair.second)) return false;
+  const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);
+  if (!side || side->fit.length_px() < kMinThirdEdge * pair.middle.length()) return false;
+  if (!is_in_line_with_a_side(h, side->fit)) return false;
+  const AxisPlane plane = plane_of_line(side->fit.line, camera_);
+  // An edge whose own direction is open would lie along anything.
+  return plane.sigma_rad(h.axis.axis) < kMaxSquareSigma_rad && lies_along(plane, h.axis);
+}
+
+// The outline's slack holds what is in line by accident; a wing's edges are one straight line, once measured.
+bool PanelEvidence::is_in_line_with_a_side(const PanelHypothesis& h, const LineFit& edge) const {
+  const Vector3 ray = ray_of(0.5 * (edge.begin_px + edge.end_px), camera_).normalized();
+  return std::any_of(h.measurement.long_planes.begin(), h.measurement.long_planes.end(), [&](const AxisPlane& own) {
+    const double slack_rad = kOneLine_px / camera_.fx_px;
+    return std::abs(own.normal.dot(ray)) < kMaxSigmas * own.sigma_rad(ray) + slack_rad;
+  });
+}
+
+}  // namespace pharos::pointing

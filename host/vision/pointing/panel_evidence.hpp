@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/vision/pointing/panel_hypothesis.hpp"
+#include "host/vision/pointing/target_mask.hpp"
+
+namespace pharos::pointing {
+
+/// What of an image confirms a hypothesis: something that a pair of any two edges would not have.
+class PanelEvidence {
+ public:
+  PanelEvidence(ImageView<const std::uint16_t> image, const TargetMask& target, const PinholeCamera& camera,
+                const std::vector<Segment>& outline)
+      : image_(image), target_(target), camera_(camera), outline_(outline) {}
+
+  /// By a second panel on the axis or a third edge along it, by two ends square to it, or by one and a plane region.
+  /// An axis that perspective hardly tells needs nothing.
+  bool is_confirmed(const PanelHypothesis& h) const;
+
+  /// Two panels on one axis, or one and an edge of another.
+  bool is_in_line(const PanelHypothesis& h) const;
+
+ private:
+  bool is_end_of_plane(const PanelHypothesis& h) const;
+  bool is_interrupted(const PanelHypothesis& h) const;
+  bool is_third(const PanelHypothesis& h, const Segment& edge) const;
+  bool is_in_line_with_a_side(const PanelHypothesis& h, const LineFit& edge) const;
+
+  ImageView<const std::uint16_t> image_;
+  const TargetMask& target_;
+  const PinholeCamera& camera_;
+  const std::vector<Segment>& outline_;
+};
+
+/// Direction of a place in the ideal image, frame C, z = 1.
+Vector3 ray_of(const Vector2& place_px, const PinholeCamera& camera);
+
+}  // namespace pharos::pointing
