@@ -18,7 +18,7 @@ using wire::ByteWriter;
 constexpr std::uint32_t kMagic = 0x4D434850;  // "PHCM"
 // An update may install pharos-camera in another version than the running daemon's: both refuse such messages and
 // report it.
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kVersion = 2;
 constexpr std::size_t kHead_bytes = 12;
 
 enum class Kind : std::uint16_t { kOrder = 1, kFrame = 2, kReport = 3, kLastWords = 4 };
@@ -166,6 +166,8 @@ void put(ByteWriter& writer, const CameraReport& report) {
   for_each_counter(report.counters, [&](const char*, std::int64_t value) { writer.put(value); });
   put_text(writer, report.identity);
   put_text(writer, report.error);
+  writer.put(static_cast<std::uint8_t>(report.ptp));
+  writer.put(static_cast<std::uint8_t>(report.ptp_lost));
 }
 
 CameraReport get_report(ByteReader& reader) {
@@ -175,6 +177,8 @@ CameraReport get_report(ByteReader& reader) {
   for_each_counter(report.counters, [&](const char*, std::int64_t& value) { value = get_time(reader); });
   report.identity = get_text(reader);
   report.error = get_text(reader);
+  report.ptp = get_enum(reader, PtpState::kUnread);
+  report.ptp_lost = get_enum<std::uint8_t>(reader, 1) != 0;
   return report;
 }
 

@@ -11,6 +11,7 @@
 #include "host/device/camera_settings.hpp"
 #include "host/device/depth_frame.hpp"
 #include "host/device/frame_source.hpp"
+#include "host/device/ptp_state.hpp"
 
 namespace pharos::host {
 
@@ -39,6 +40,8 @@ struct CameraReport {
   FrameSourceCounters counters;  // of this process
   std::string identity;
   std::string error;
+  PtpState ptp = PtpState::kOff;
+  bool ptp_lost = false;  // it followed PTP before in this session, and does not now
 };
 
 /// The last message of a library that aborted the camera's process.

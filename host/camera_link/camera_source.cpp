@@ -74,6 +74,7 @@ void CameraSource::start() {
 void CameraSource::start_later(const std::string& error) {
   status_.state = CameraState::kGone;
   status_.error = error;
+  status_.ptp_state = PtpState::kOff;
   const std::int64_t lived_ns = monotonic_now_ns() - started_ns_;
   if (lived_ns > std::chrono::nanoseconds(kGoodLife).count()) back_off_ = kFirstBackOff;
   restart_.start(back_off_);
@@ -134,6 +135,10 @@ void CameraSource::on_report(const CameraReport& report) {
   status_.state = report.state;
   status_.error = report.error;
   status_.identity = report.identity;
+  status_.ptp_state = report.ptp;
+  status_.ptp = text_of(report.ptp);
+  status_.ptp_fault = report.ptp_lost || report.ptp == PtpState::kRefused || report.ptp == PtpState::kUnread;
+  if (!status_.ptp.empty()) status_.identity += ", " + status_.ptp;
   of_process_ = report.counters;
   // A new process counts its sessions from the start; this counter only increases.
   if (report.session != std::exchange(process_session_, report.session) && report.session != 0) ++status_.session;

@@ -14,7 +14,7 @@ namespace pharos::host {
 /// The conversion uses the arrival of each frame's first packet: ClockMap, with the camera's nanoseconds as ticks of
 /// 20 ns. The camera's delay before it sends is not observable in this way. If the camera follows PTP its own time is
 /// used, as long as it agrees with the arrivals within kMaxPtpDisagreement_ns, apart from whole seconds (TAI is 37 s
-/// ahead of UTC).
+/// ahead of UTC). It also shows the camera's delay, which is taken off when the camera no longer follows PTP.
 class FrameClock {
  public:
   /// Updates the mapping with the frame. Empty while the mapping is unknown, or if the frame contradicts it.
@@ -31,8 +31,11 @@ class FrameClock {
   static constexpr std::int64_t kPtpSigma_ns = 100'000;
 
  private:
+  std::optional<MappedTime> less_delay(const std::optional<MappedTime>& mapped) const;
+
   ClockMap map_;
   std::optional<std::uint32_t> session_;
+  std::optional<std::int64_t> delay_ns_;  // from the exposure to the mapped time, as PTP showed it in this session
   bool by_ptp_ = false;
   std::int64_t ptp_rejected_ = 0;
 };

@@ -68,6 +68,7 @@ NamedCounts TofPipeline::named_counts(const FrameSourceStatus& camera) const {
   }
   add_times(counts, "latency", latency_);
   add_clock(counts, clock_.map().counters());
+  counts.push_back({"clock.ptp_state", static_cast<std::int64_t>(camera.ptp_state)});
   counts.push_back({"clock.by_ptp", clock_.by_ptp() ? 1 : 0});
   counts.push_back({"clock.ptp_doubted", clock_.ptp_doubted()});
   counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.suppressed())});

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "host/device/depth_frame.hpp"
+#include "host/device/ptp_state.hpp"
 
 namespace pharos::host {
 
@@ -25,6 +26,8 @@ namespace pharos::host {
   X(camera_lost, "times it was lost")                                                                 \
   X(camera_silences, "times it was opened anew because no frame came")                                \
   X(camera_contested, "times it was opened anew because frames of two senders came")                  \
+  X(ptp_losses, "times the camera ceased to follow PTP")                                              \
+  X(ptp_refusals, "times it did not take the order to follow PTP")                                    \
   X(camera_process_deaths, "times the camera's process died and was started again")                   \
   X(messages_refused, "messages of the camera's process that could not be")
 
@@ -68,7 +71,9 @@ struct SourceStatus {
   CameraState state = CameraState::kGone;
   std::string error;          // what is wrong and what to do; empty when open
   std::string remark;         // to be logged once: how a recording's images were converted
-  std::string identity;       // of each camera: vendor, model, serial number, mode, format, packets
+  std::string identity;       // of each camera: vendor, model, serial number, mode, format, packets, PTP
+  std::string ptp;            // of each camera that is asked to follow PTP: its state; to be logged when it changes
+  bool ptp_fault = false;     // a camera refuses PTP, does not tell its state, or ceased to follow it
   std::uint32_t session = 0;  // increases with every opening of a camera
   bool finished = false;      // a recording has ended
 };
@@ -83,6 +88,7 @@ struct FrameRecordingCounters {
 };
 
 struct FrameSourceStatus : SourceStatus {
+  PtpState ptp_state = PtpState::kOff;
   FrameSourceCounters counters;
   std::optional<FrameRecordingCounters> recording;
 };

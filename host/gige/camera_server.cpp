@@ -62,6 +62,7 @@ void CameraServer::report_if_due() {
 }
 
 void CameraServer::set_state(CameraState state, const std::string& error) {
+  if (state != CameraState::kOpen) report_.ptp = PtpState::kOff;
   report_.state = state;
   report_.error = error;
   report();
@@ -85,6 +86,9 @@ void CameraServer::look_for_camera() {
     ++report_.session;
     ++report_.counters.camera_opened;
     report_.identity = camera.identity();
+    report_.ptp_lost = false;
+    report_.ptp = camera.ptp_state();
+    report_.counters.ptp_refusals += report_.ptp == PtpState::kRefused ? 1 : 0;
     set_state(CameraState::kOpen, "");
     stream(camera);
     discarded_before_ = report_.counters.datagrams_discarded;
@@ -151,8 +155,16 @@ FrameOutcome CameraServer::take_frame(GigeCamera& camera) {
 void CameraServer::ask(GigeCamera& camera, std::int64_t now_ns) {
   if (now_ns - asked_ns_ <= kAsk_ns) return;
   asked_ns_ = now_ns;
-  follows_ptp_ = camera.follows_ptp();
+  take_ptp(camera.ptp_state());
   camera.read_clock();
+}
+
+void CameraServer::take_ptp(PtpState state) {
+  const PtpState before = std::exchange(report_.ptp, state);
+  const bool ceased = before == PtpState::kSlave && state != PtpState::kSlave;
+  report_.counters.ptp_losses += ceased ? 1 : 0;
+  report_.ptp_lost = state != PtpState::kSlave && (report_.ptp_lost || ceased);
+  if (state != before) report();
 }
 
 /// Called for each frame that does not fit the others. Whether there are so many that there must be two senders.
@@ -175,7 +187,7 @@ void CameraServer::count(FrameOutcome outcome, std::int64_t missing) {
 
 void CameraServer::hand_over(FrameNotice& notice) {
   DepthFrame& frame = notice.about;
-  frame.clock = follows_ptp_ ? CameraClock::kPtp : CameraClock::kOwn;
+  frame.clock = report_.ptp == PtpState::kSlave ? CameraClock::kPtp : CameraClock::kOwn;
   frame.session = report_.session;
   notice.has_depth = has_depth_;
   notice.sequence = slots_.publish();

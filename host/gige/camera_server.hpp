@@ -30,6 +30,7 @@ class CameraServer {
   void count(FrameOutcome outcome, std::int64_t missing);
   void hand_over(FrameNotice& notice);
   void ask(GigeCamera& camera, std::int64_t now_ns);
+  void take_ptp(PtpState state);
   void set_state(CameraState state, const std::string& error);
   void report();
   void report_if_due();
@@ -46,8 +47,7 @@ class CameraServer {
   std::int64_t discarded_before_ = 0;  // datagrams in previous sessions
   std::int64_t asked_ns_ = 0;
   std::deque<std::int64_t> foreign_ns_;  // times of frames that cannot be the camera's
-  bool follows_ptp_ = false;
-  std::int64_t passed_over_ = 0;  // frames of this session that Aravis dropped for their number
+  std::int64_t passed_over_ = 0;         // frames of this session that Aravis dropped for their number
   CameraReport report_;
   std::int64_t reported_ns_ = 0;
 };

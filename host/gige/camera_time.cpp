@@ -3,25 +3,18 @@
 
 #include <cmath>
 
+#include "host/gige/device_feature.hpp"
 #include "host/gige/gobject.hpp"
 #include "host/runtime/now.hpp"
 
 namespace pharos::host {
-namespace {
-
-bool has(ArvDevice* device, const char* node) {
-  ArvError error;
-  return arv_device_is_feature_available(device, node, error.out()) != 0 && !error;
-}
-
-}  // namespace
 
 // Node names of the current standard, in ns, and of its first version, in ticks.
 CameraTime::CameraTime(ArvDevice* device) : device_(device) {
-  if (has(device, "TimestampLatch") && has(device, "TimestampLatchValue")) {
+  if (has_feature(device, "TimestampLatch") && has_feature(device, "TimestampLatchValue")) {
     latch_ = "TimestampLatch";
     value_ = "TimestampLatchValue";
-  } else if (has(device, "GevTimestampControlLatch") && has(device, "GevTimestampValue")) {
+  } else if (has_feature(device, "GevTimestampControlLatch") && has_feature(device, "GevTimestampValue")) {
     latch_ = "GevTimestampControlLatch";
     value_ = "GevTimestampValue";
     ArvError error;
@@ -47,6 +40,12 @@ void CameraTime::read() {
   known_ = true;
   camera_ns_ = std::llround(static_cast<double>(ticks) * ns_per_tick_);
   read_ns_ = before_ns + (after_ns - before_ns) / 2;
+}
+
+bool CameraTime::read_again(std::int64_t now_ns) {
+  if (now_ns - read_ns_ < kMinReading_ns) return false;
+  read();
+  return true;
 }
 
 bool CameraTime::agrees(std::int64_t camera_ns, std::int64_t arrival_monotonic_ns) {

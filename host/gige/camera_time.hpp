@@ -18,10 +18,15 @@ class CameraTime {
   explicit CameraTime(ArvDevice* device);
   /// Reads the clock: three packets and their responses. Does nothing if the camera has no such nodes.
   void read();
+  /// Reads the clock if that was not done within kMinReading_ns; whether it was. For a frame that disagrees, where the
+  /// clock may have been set since.
+  bool read_again(std::int64_t now_ns);
   /// Whether a frame that arrived at that time can have that time stamp. True if the clock is unknown, and from the
   /// kForeignFrames-th frame on if no frame agreed before: then the camera stamps its frames by another clock.
   bool agrees(std::int64_t camera_ns, std::int64_t arrival_monotonic_ns);
   static constexpr int kForeignFrames = 3;
+  /// Another sender's frames cause no more queries than this.
+  static constexpr std::int64_t kMinReading_ns = 100'000'000;
 
  private:
   ArvDevice* device_;

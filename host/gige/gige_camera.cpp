@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "host/device/pixel_format.hpp"
+#include "host/gige/camera_ptp.hpp"
 #include "host/gige/camera_time.hpp"
+#include "host/gige/device_feature.hpp"
 #include "host/gige/find_camera.hpp"
 #include "host/gige/frame_numbers.hpp"
 #include "host/gige/gobject.hpp"
@@ -57,21 +59,18 @@ struct GigeCamera::Parts {
   GObjectPtr<ArvStream> stream;
   std::optional<Heartbeat> heartbeat;
   std::optional<CameraTime> time;
+  std::optional<CameraPtp> ptp;  // if it is to be followed
   StreamGuard guard;
   std::uint64_t packets_per_frame = 1;
   bool believe_source_port = true;
   std::string identity;
   std::string address;
   bool in_turns = false;
-  bool has_ptp = false;
   std::optional<CoordinateScale> scale;
   FrameNumbers numbers;
 
   bool is_depth() const { return settings.format == CameraFormat::kDepth; }
-  bool has(const char* feature) const {
-    ArvError error;
-    return arv_camera_is_feature_available(camera.get(), feature, error.out()) != 0 && !error;
-  }
+  bool has(const char* feature) const { return has_feature(arv_camera_get_device(camera.get()), feature); }
   bool offers_format(const char* format) const {
     ArvError error;
     return arv_camera_is_enumeration_entry_available(camera.get(), "PixelFormat", format, error.out()) != 0 && !error;
@@ -87,7 +86,6 @@ struct GigeCamera::Parts {
   void set_packets();
   void check_size() const;
   void read_scale();
-  void start_ptp();
   void start_stream();
   std::size_t payload() const;
   void guard_stream(std::size_t payload_bytes);
@@ -184,13 +182,6 @@ void GigeCamera::Parts::read_scale() {
   scale = read;
 }
 
-void GigeCamera::Parts::start_ptp() {
-  has_ptp = settings.ptp && has("PtpEnable") && has("PtpStatus");
-  if (!has_ptp) return;
-  ArvError ignored;  // a camera that refuses this setting may still follow PTP
-  arv_camera_set_boolean(camera.get(), "PtpEnable", TRUE, ignored.out());
-}
-
 void GigeCamera::Parts::start_stream() {
   ArvError error;
   // A packet socket needs CAP_NET_RAW, which the service does not have. Without it, all users run the same code.
@@ -262,7 +253,7 @@ GigeCamera::GigeCamera(const CameraSettings& settings, bool believe_source_port)
   parts.set_packets();
   parts.check_size();
   parts.read_scale();  // depends on mode and format
-  parts.start_ptp();
+  if (settings.ptp) parts.ptp.emplace(arv_camera_get_device(parts.camera.get()));
   parts.describe();
   parts.heartbeat.emplace(arv_camera_get_device(parts.camera.get()), ip_of(parts.camera.get()));
   parts.time.emplace(arv_camera_get_device(parts.camera.get()));
@@ -296,7 +287,7 @@ bool GigeCamera::is_controller() const {
 
 std::int64_t GigeCamera::discarded_datagrams() const { return parts_->guard.discarded(); }
 
-bool GigeCamera::follows_ptp() const { return parts_->has_ptp && parts_->word("PtpStatus") == "Slave"; }
+PtpState GigeCamera::ptp_state() const { return parts_->ptp ? parts_->ptp->read() : PtpState::kOff; }
 
 GObjectPtr<ArvBuffer> GigeCamera::Parts::pop(std::chrono::milliseconds timeout) const {
   return GObjectPtr<ArvBuffer>(
@@ -342,7 +333,11 @@ FrameOutcome GigeCamera::Parts::outcome(ArvBuffer* buffer, std::uint32_t format,
   about.arrival_monotonic_ns = about.complete_monotonic_ns - (utc_now_ns() - about.arrival_utc_ns);
   about.taken_in_turns = in_turns;
   about.scale = scale;
-  if (!time->agrees(about.camera_ns, about.arrival_monotonic_ns)) return FrameOutcome::kWrongTime;
+  // PTP sets the camera's clock when it finds a master.
+  if (!time->agrees(about.camera_ns, about.arrival_monotonic_ns) &&
+      !(ptp && time->read_again(now_ns) && time->agrees(about.camera_ns, about.arrival_monotonic_ns))) {
+    return FrameOutcome::kWrongTime;
+  }
   return FrameOutcome::kFrame;
 }
 

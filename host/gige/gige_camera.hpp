@@ -11,6 +11,7 @@
 #include "host/device/camera_settings.hpp"
 #include "host/device/depth_frame.hpp"
 #include "host/device/frame_source.hpp"
+#include "host/device/ptp_state.hpp"
 
 namespace pharos::host {
 
@@ -56,8 +57,8 @@ class GigeCamera {
 
   /// False when another program or nobody controls the camera.
   bool is_controller() const;
-  /// Whether the camera's clock is disciplined by PTP now; queries the camera.
-  bool follows_ptp() const;
+  /// Whether the camera's clock follows PTP now; queries the camera. kOff if the settings say no.
+  PtpState ptp_state() const;
   /// Datagrams to the stream's port that the kernel dropped: by the filter, or for a full buffer.
   std::int64_t discarded_datagrams() const;
   /// Packets that Aravis dropped because their frame number was below the current one, counted in whole frames; 0 if

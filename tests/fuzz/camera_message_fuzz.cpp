@@ -50,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr std::uint8_t kKinds = 6;
   mended[6] = static_cast<std::uint8_t>(mended[6] % kKinds);
   mended[7] = 0;
-  std::memcpy(mended.data(), "PHCM\1", 6);
+  std::memcpy(mended.data(), "PHCM\2", 6);
   const std::uint32_t crc = pharos::wire::crc32({mended.data() + kHead_bytes, size - kHead_bytes}, mended[6]);
   for (std::size_t i = 0; i < 4; ++i) mended[8 + i] = static_cast<std::uint8_t>(crc >> 8 * i);
   check_bytes(mended);

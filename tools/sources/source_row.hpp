@@ -112,6 +112,7 @@ struct SourceHealth {
   std::string state;
   std::string message;
   double data_age_s = -1.0;  // -1: never
+  std::string ptp;           // of its cameras, where they are asked to follow PTP
 };
 
 /// What a daemon tells of itself.

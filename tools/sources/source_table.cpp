@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "host/device/ptp_state.hpp"
 #include "host/receive/message_values.hpp"
 #include "pharos/bearings_t.hpp"
 #include "pharos/clock_exchange_t.hpp"
+#include "pharos/counter_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/preview_t.hpp"
@@ -73,6 +76,23 @@ void add_other_axis(Sights& sights, const Sights& before) {
     if (!sensor) sensor = SensorSight{std::nullopt, std::nullopt, old->used};
     (has_x ? sensor->y_over_z : sensor->x_over_z) = has_x ? old->y_over_z : old->x_over_z;
   }
+}
+
+// "PTP slave", or of a rig "left PTP slave, right PTP listening".
+std::string ptp_of(const source_status_t& source) {
+  constexpr std::string_view kCounter = "clock.ptp_state";
+  std::string text;
+  for (const counter_t& counter : source.counters) {
+    const std::string_view name = counter.name;
+    if (!name.ends_with(kCounter) || counter.value <= 0 || counter.value > static_cast<int>(host::PtpState::kUnread)) {
+      continue;
+    }
+    const std::string_view head = name.substr(0, name.size() - kCounter.size());
+    text += text.empty() ? "" : ", ";
+    if (head == "left." || head == "right.") text += std::string(head.substr(0, head.size() - 1)) + ' ';
+    text += host::text_of(static_cast<host::PtpState>(counter.value));
+  }
+  return text;
 }
 
 }  // namespace
@@ -261,7 +281,7 @@ void SourceTable::add(const status_t& message, std::int64_t now_ns) {
     if (daemon.sources.size() >= kMaxRows) break;
     daemon.sources[{kept(source.source), kept(source.target)}] = {
         kept(source.state), kept(source.message),
-        source.data_age_us < 0 ? -1.0 : static_cast<double>(source.data_age_us) * 1e-6};
+        source.data_age_us < 0 ? -1.0 : static_cast<double>(source.data_age_us) * 1e-6, ptp_of(source)};
   }
 }
 

@@ -64,6 +64,8 @@ void add_daemon(std::vector<std::string>& out, const std::string& host, const Da
            ? "SILENT for " + age_text(static_cast<double>(now_ns - daemon.heard_ns) * kSPerNs)
            : host::printable(daemon.state + (daemon.message.empty() ? "" : ": " + daemon.message), kMaxText)));
   for (const auto& [name, health] : daemon.sources) {
+    if (!health.ptp.empty())
+      out.push_back("  " + host::printable(name.first + ' ' + name.second + ": " + health.ptp, kMaxText));
     if (health.state == "ok") continue;
     const std::string error = health.state + (health.message.empty() ? "" : ": " + health.message);
     out.push_back("  " + host::printable(name.first + ' ' + name.second + ": " + error, kMaxText));

@@ -24,6 +24,10 @@ bool differs(float now, float before) {
   return now > ratio * before || before > ratio * now;
 }
 
+// In the middle of where the noise will be until it differs again: in an approach it only falls, and a bias that is set
+// to what it is at each step is too large by half of a step in the mean.
+float middle_of_next_step(float now, float before) { return before > 0.0F ? now * std::sqrt(now / before) : now; }
+
 // Norm of a correction in the standard deviations before it, the larger of rotation and position.
 double sigmas_moved(const Matrix6& before, const Vector6& moved) {
   const auto part = [](const Matrix3& P, const Vector3& d) {
@@ -105,8 +109,10 @@ void FusionCore::note_own_error(FusionState& state, const Measurement& m) const 
          smoothed(last.position, position_sigma * position_sigma)};
   const OwnVariance& used = state.main.own_variance(m.source);
   if (!differs(own.rotation, used.rotation) && !differs(own.position, used.position)) return;
-  state.main.set_own_variance(m.source, own, settings_);
-  for (Filter& filter : state.without) filter.set_own_variance(m.source, own, settings_);
+  const OwnVariance next{middle_of_next_step(own.rotation, used.rotation),
+                         middle_of_next_step(own.position, used.position)};
+  state.main.set_own_variance(m.source, next, settings_);
+  for (Filter& filter : state.without) filter.set_own_variance(m.source, next, settings_);
 }
 
 Use FusionCore::track(FusionState& state, const Measurement& raw) const {

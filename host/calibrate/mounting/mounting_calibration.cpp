@@ -310,7 +310,7 @@ MountingCalibration calibrate_mounting(const MountingCalibrationInput& input) {
   }
   const std::vector<UsedRow> rows = select_rows(input, unknowns, inliers);
   const auto covariance = covariances(input, rows, enlarged, unknowns);
-  const auto slow = estimate_slow_errors(input, rows, enlarged, unknowns);
+  const auto slow = estimate_slow_errors(input, rows, enlarged, unknowns, out.fits);
   for (std::size_t s = 0; s < input.recordings.size(); ++s) {
     out.mounting.sources.push_back(mounting_of(input, s, unknowns.sources[s], covariance[s]));
     out.mounting.sources.back().slow_error = slow[s];

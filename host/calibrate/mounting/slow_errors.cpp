@@ -8,7 +8,8 @@ namespace pharos::calibrate {
 namespace {
 
 constexpr int kSteps = 6;
-constexpr double kMinFreedom = 0.5;  // else the assumption stays: the rows say nothing of it
+constexpr double kMinFreedom = 0.5;   // else the assumption stays: the rows say nothing of it
+constexpr double kShownSigmas = 3.0;  // of the scatter of a mean square
 
 // Root mean square of the sigma of one axis, of those that a pose measures, as the source states them.
 struct StatedNoise {
@@ -36,12 +37,22 @@ std::vector<StatedNoise> stated_noise(const MountingCalibrationInput& input, con
   return out;
 }
 
+// The part of a stated variance that residuals do not show: of one axis, less what the motion takes up (one freedom a
+// control point) and the scatter of the mean of squares.
+double unseen_fraction(double residual_rms, double stated_sigma, std::size_t rows, std::size_t control_points) {
+  const double shown = residual_rms * residual_rms / (3.0 * stated_sigma * stated_sigma);
+  const auto freedom = static_cast<double>(std::max<std::size_t>(rows, 1));
+  const double taken_up = static_cast<double>(control_points) / freedom;
+  return std::max(0.0, 1.0 - shown - taken_up - kShownSigmas * std::sqrt(2.0 / freedom));
+}
+
 }  // namespace
 
 std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingCalibrationInput& input,
                                                                  const std::vector<UsedRow>& rows,
                                                                  const std::vector<double>& enlarged,
-                                                                 const MountingUnknowns& unknowns) {
+                                                                 const MountingUnknowns& unknowns,
+                                                                 const std::vector<MountingFit>& fits) {
   MountingCalibrationInput assumed = input;
   MountingUnknowns present = unknowns;
   for (int step = 0; step < kSteps; ++step) {
@@ -70,6 +81,12 @@ std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingC
     out[s] =
         host::SlowError{std::max(recording.slow_rotation_rad / noise[s].rotation_rad, least),
                         std::max(recording.slow_position_m / noise[s].position_m, least), input.slow_time_constant_s};
+    if (s != input.given) continue;
+    const auto unseen = [&](double residual_rms, double stated_sigma) {
+      return std::sqrt(unseen_fraction(residual_rms, stated_sigma, noise[s].rows, unknowns.motion.size()));
+    };
+    out[s]->rotation_ratio = std::max(out[s]->rotation_ratio, unseen(fits[s].rms_rotation_rad, noise[s].rotation_rad));
+    out[s]->position_ratio = std::max(out[s]->position_ratio, unseen(fits[s].rms_position_m, noise[s].position_m));
   }
   return out;
 }

@@ -16,11 +16,15 @@ namespace pharos::calibrate {
 ///
 /// Never below what the noise of one time constant's poses leaves of its mean: a smaller slow error looks like noise.
 ///
-/// `rows`, `enlarged`: those of the adjustment that found `unknowns`. Cost: an evaluation of the problem and a
-/// factorisation for each of eight steps.
+/// Of the given source, whose mounting takes nothing up: not below what it states and its residuals do not show. Errors
+/// that all of its poses have in common (sensors' places, a rotor's calibration) move the motion and leave no residual.
+///
+/// `fits`: residuals of the adjustment. `rows`, `enlarged`: those of the adjustment that found `unknowns`. Cost: an
+/// evaluation of the problem and a factorisation for each of eight steps.
 std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingCalibrationInput& input,
                                                                  const std::vector<UsedRow>& rows,
                                                                  const std::vector<double>& enlarged,
-                                                                 const MountingUnknowns& unknowns);
+                                                                 const MountingUnknowns& unknowns,
+                                                                 const std::vector<MountingFit>& fits);
 
 }  // namespace pharos::calibrate

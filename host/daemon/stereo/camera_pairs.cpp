@@ -112,6 +112,8 @@ PairSourceStatus CameraPairs::status() const {
     add(status.error, kSides[side], cameras[side].error);
     add(status.identity, kSides[side], cameras[side].identity);
     add(status.remark, kSides[side], cameras[side].remark);
+    add(status.ptp, kSides[side], cameras[side].ptp);
+    status.ptp_fault = status.ptp_fault || cameras[side].ptp_fault;
     // A frame lost on one side leaves one without a partner on the other: the worse side has lost the pairs.
     status.pairs.lost = std::max(status.pairs.lost, delivered(cameras[side].counters).lost + matcher_.unpaired(side));
     status.session += cameras[side].session;
@@ -143,6 +145,7 @@ NamedCounts CameraPairs::named_counts(const std::array<FrameSourceStatus, 2>& ca
     });
     add_recording(counts, head + "recording.", cameras[side]);
     add_times(counts, head + "transport", transport_[side]);
+    counts.push_back({head + "clock.ptp_state", static_cast<std::int64_t>(cameras[side].ptp_state)});
     counts.push_back({head + "clock.by_ptp", clocks_[side].by_ptp() ? 1 : 0});
     counts.push_back({head + "clock.ptp_doubted", clocks_[side].ptp_doubted()});
   }

@@ -201,12 +201,68 @@ TEST_F(CameraSourceTest, CountsFramesWithLostPacketsAndGivesTheOthersUnharmed) {
   EXPECT_EQ(bad_pixels, 0);
 }
 
-TEST_F(CameraSourceTest, FollowsPtpWhereTheCameraDoes) {
+// The camera's clock is set while frames come, when it becomes a slave: that is no other sender.
+TEST_F(CameraSourceTest, FollowsPtpByTheNamesThatTheCameraKnows) {
   play.ptp = true;
+  for (const sim::PtpNames names : {sim::PtpNames::kNew, sim::PtpNames::kOld}) {
+    play.ptp_names = names;
+    play.ptp_masterless = {{0.0, 2.0}};
+    last = {};
+    serve();
+    CameraSource source(settings, camera_program());
+    ASSERT_TRUE(run(source, [&] { return source.status().ptp_state == PtpState::kListening; }));
+    EXPECT_FALSE(source.status().ptp_fault);
+    ASSERT_TRUE(run(source, [&] { return last.clock == CameraClock::kPtp; })) << source.status().identity;
+    EXPECT_NEAR(static_cast<double>(last.camera_ns), static_cast<double>(last.arrival_utc_ns), 1e9);
+    EXPECT_THAT(source.status().identity, HasSubstr(", PTP slave"));
+    EXPECT_EQ(source.status().counters.camera_opened, 1);
+    EXPECT_EQ(source.status().counters.camera_contested, 0);
+    EXPECT_LE(source.status().counters.frames_wrong_time, 3);
+    camera.reset();
+  }
+}
+
+TEST_F(CameraSourceTest, ACameraThatLosesItsPtpMasterIsToldAndComesBack) {
+  play.ptp = true;
+  play.ptp_masterless = {{3.0, 3.0}};
   serve();
   CameraSource source(settings, camera_program());
-  ASSERT_TRUE(run(source, [&] { return taken > 0 && last.clock == CameraClock::kPtp; }));
-  EXPECT_NEAR(static_cast<double>(last.camera_ns), static_cast<double>(last.arrival_utc_ns), 1e9);
+  ASSERT_TRUE(run(source, [&] { return last.clock == CameraClock::kPtp; }));
+  ASSERT_TRUE(run(source, [&] { return last.clock == CameraClock::kOwn; }));
+  EXPECT_EQ(source.status().ptp_state, PtpState::kListening);
+  EXPECT_TRUE(source.status().ptp_fault);
+  EXPECT_EQ(source.status().counters.ptp_losses, 1);
+  ASSERT_TRUE(run(source, [&] { return last.clock == CameraClock::kPtp; }));
+  EXPECT_FALSE(source.status().ptp_fault);
+  EXPECT_EQ(source.status().counters.camera_opened, 1);
+}
+
+TEST_F(CameraSourceTest, ACameraThatRefusesPtpOrHasNoneIsUsedByItsOwnClock) {
+  play.ptp = true;
+  for (const sim::PtpNames names : {sim::PtpNames::kNew, sim::PtpNames::kOld, sim::PtpNames::kNone}) {
+    play.ptp_names = names;
+    play.ptp_refused = true;
+    const bool none = names == sim::PtpNames::kNone;
+    serve();
+    CameraSource source(settings, camera_program());
+    ASSERT_TRUE(frames_come(source, 3)) << source.status().error;
+    EXPECT_EQ(source.status().ptp_state, none ? PtpState::kAbsent : PtpState::kRefused);
+    EXPECT_EQ(source.status().ptp_fault, !none);
+    EXPECT_THAT(source.status().identity, HasSubstr(none ? ", PTP not offered" : ", PTP refused"));
+    EXPECT_EQ(source.status().counters.ptp_refusals, none ? 0 : 1);
+    EXPECT_EQ(last.clock, CameraClock::kOwn);
+    camera.reset();
+  }
+}
+
+TEST_F(CameraSourceTest, PtpThatIsNotAskedForIsNotSetAndNotTold) {
+  play.ptp = true;
+  settings.ptp = false;
+  serve();
+  CameraSource source(settings, camera_program());
+  ASSERT_TRUE(frames_come(source, 40));  // a state is asked for once a second
+  EXPECT_EQ(last.clock, CameraClock::kOwn);
+  EXPECT_EQ(source.status().ptp, "");
 }
 
 }  // namespace

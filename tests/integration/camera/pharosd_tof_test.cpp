@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program pharosd with the simulated Helios and the simulated satellite.
+#include <gmock/gmock.h>
+
 #include <csignal>
 
 #include "integration/camera/pharosd_tof_fixture.hpp"
@@ -43,6 +45,29 @@ TEST_F(StationaryTofTest, GoesOnWhenTheCameraComesBack) {
   EXPECT_FALSE(daemon.source("client")->message.empty());
   serve();
   ASSERT_TRUE(poses_come(2)) << daemon.process().text();
+  expect_true_poses();
+}
+
+TEST_F(StationaryTofTest, TellsWhenItsCameraNoLongerFollowsPtp) {
+  play.ptp = true;
+  play.ptp_masterless = {{6.0, 1e6}};
+  serve();
+  start(kByAddress);
+  const auto told = [&](const std::string& words) {
+    return daemon.wait(
+        [&] { return daemon.source("client") && daemon.source("client")->identity.find(words) != std::string::npos; },
+        kTimeout_s);
+  };
+  ASSERT_TRUE(told(", PTP slave")) << daemon.process().text();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.counter("clock.by_ptp", "client") == 1; }, kTimeout_s));
+  EXPECT_EQ(daemon.source("client")->clock_sigma_us, 100.0);
+  ASSERT_TRUE(told(", PTP listening")) << daemon.process().text();
+  EXPECT_EQ(daemon.counter("clock.ptp_state", "client"), 4);
+  EXPECT_EQ(daemon.counter("device.ptp_losses", "client"), 1);
+  ASSERT_TRUE(poses_come(2)) << daemon.process().text();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.counter("clock.by_ptp", "client") == 0; }, kTimeout_s));
+  EXPECT_GT(daemon.source("client")->clock_sigma_us, 100.0);
+  EXPECT_THAT(daemon.process().text(), ::testing::HasSubstr("PTP listening: times are estimated from arrivals"));
   expect_true_poses();
 }
 

@@ -130,5 +130,35 @@ TEST(FusionFilter, AStatedNoiseThatWaversDoesNotMeasureTheSlowError) {
   for (int i = 0; i < 6; ++i) EXPECT_GT(std::sqrt(state.covariance(i, i)), 0.8 * kSigma) << i;
 }
 
+// An approach: the stated noise falls by 2 % a second. The slow error is followed in steps, in the mean as it is.
+TEST(FusionFilter, ASlowErrorThatFallsWithTheNoiseIsNotOverstatedInTheMean) {
+  constexpr double kRate_hz = 60.0, kFall_per_s = 0.02;
+  Settings settings;
+  SourceSettings source;
+  source.bias_frame = BiasFrame::kFeature;
+  source.bias_covariance = Matrix6::Identity() * 1e-14;
+  source.own_rotation_ratio = source.own_position_ratio = 1.0;
+  source.bias_time_constant_s = 30.0;
+  settings.sources.push_back(source);
+  const auto estimator = std::make_unique<TargetEstimator>(settings);
+  double ratios = 0.0;
+  int count = 0;
+  for (int k = 0; k < 6000; ++k) {
+    const double sigma = 1e-3 * std::exp(-kFall_per_s * k / kRate_hz);
+    Measurement m;
+    m.time_ns = std::llround(k / kRate_hz * 1e9);
+    Vector6 noise;
+    for (int i = 0; i < 6; ++i) noise[i] = sigma * std::sin(k * (1.7 + 0.31 * i));
+    const TargetPose seen = kSomePose.moved_by(noise);
+    m.pose = {seen.R, seen.t};
+    m.covariance = Matrix6::Identity() * (sigma * sigma);
+    estimator->push(m);
+    if (k < 1200 || k % 10 != 0) continue;
+    ratios += std::sqrt(estimator->state(m.time_ns).covariance(3, 3)) / sigma;
+    ++count;
+  }
+  EXPECT_NEAR(ratios / count, 1.0, 0.09);
+}
+
 }  // namespace
 }  // namespace pharos::fusion

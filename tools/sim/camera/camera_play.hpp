@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/sim/camera/frame_sequence.hpp"
+#include "tools/sim/camera/helios_description.hpp"
 
 namespace pharos::sim {
 
@@ -39,7 +40,10 @@ struct CameraPlay {
   double clock_start_s = 1000.0;  // what its clock shows at its start
   double clock_ppm = 0.0;         // how much it runs fast
   double clock_jitter_s = 0.0;    // sigma of what its times are off, each on its own
-  bool ptp = false;               // it follows UTC once it is told to (PtpEnable)
+  bool ptp = false;               // it follows UTC once it is told to, if there is a master
+  PtpNames ptp_names = PtpNames::kNew;
+  bool ptp_refused = false;            // an order to follow PTP is an error
+  std::vector<Outage> ptp_masterless;  // no master is on the network: its clock runs on by its own rate
 
   double duration_s = 0.0;  // 0: until SIGINT or SIGTERM
   std::string truth_file;   // true poses as they are shown; empty: none

@@ -81,6 +81,8 @@ struct FakeHelios::Parts {
   std::uint64_t shown = 0;  // of the reel
   std::int64_t last_camera_ns = 0;
   double lost_fraction = 0.0;  // as Aravis was told
+  std::uint32_t ptp_state = kPtpDisabled;
+  std::int64_t clock_began_camera_ns = std::llround(play.clock_start_s * kNanosecondsPerSecond);
   std::mt19937_64 jitter{std::hash<std::string>()(play.serial)};
 
   ArvFakeCamera* registers() const { return arv_gv_fake_camera_get_fake_camera(camera.get()); }
@@ -105,7 +107,7 @@ struct FakeHelios::Parts {
   WireScale scale_of(std::size_t mode) const;
   void set_up() const;
   void fill(ArvBuffer* buffer, std::uint32_t format);
-  void apply_ptp() const;
+  void apply_ptp(double time_s);
   void lose(double fraction);
   std::int64_t camera_time_ns(std::int64_t utc_ns, std::int64_t monotonic_ns) const;
   void take_picture(std::int64_t utc_ns);
@@ -129,7 +131,7 @@ void FakeHelios::Parts::set_up() const {
   write(ARV_FAKE_CAMERA_REGISTER_PIXEL_FORMAT, first_format(offered_by(play)));
   write(ARV_FAKE_CAMERA_REGISTER_ACQUISITION_FRAME_PERIOD_US,
         static_cast<std::uint32_t>(std::lround(kUsPerSecond / play.frame_rate_hz)));
-  write(kPtpStatusRegister, kPtpDisabled);
+  write(kPtpStatusRegister, ptp_state);
   if (play.grey) return;
   const auto mode = std::find(kHeliosModes.begin(), kHeliosModes.end(), play.mode);
   if (mode == kHeliosModes.end()) throw host::InputError("--mode " + play.mode + ": the Helios has no such mode");
@@ -143,14 +145,25 @@ void FakeHelios::Parts::set_up() const {
   }
 }
 
-void FakeHelios::Parts::apply_ptp() const {
-  if (play.ptp) write(kPtpStatusRegister, read(kPtpEnableRegister) != 0 ? kPtpSlave : kPtpDisabled);
+// A latch is answered at the next frame: Aravis does not tell when it is written.
+void FakeHelios::Parts::apply_ptp(double time_s) {
+  const bool enabled = read(kPtpEnableRegister) != 0;
+  const bool master = play.ptp && !any_holds(play.ptp_masterless, time_s);
+  const std::uint32_t state = !enabled ? kPtpDisabled : master ? kPtpSlave : kPtpListening;
+  if (ptp_state == kPtpSlave && state != kPtpSlave) {  // it runs on from the time that it has
+    clock_began_camera_ns = host::utc_now_ns();
+    clock_began_ns = host::monotonic_now_ns();
+  }
+  ptp_state = state;
+  if (read(kPtpLatchRegister) == 0) return;
+  write(kPtpLatchRegister, 0);
+  write(kPtpStatusRegister, ptp_state);
 }
 
 std::int64_t FakeHelios::Parts::camera_time_ns(std::int64_t utc_ns, std::int64_t monotonic_ns) const {
-  if (read(kPtpStatusRegister) == kPtpSlave) return utc_ns;
+  if (ptp_state == kPtpSlave) return utc_ns;
   const double since_start_ns = static_cast<double>(monotonic_ns - clock_began_ns);
-  return std::llround(play.clock_start_s * kNanosecondsPerSecond + since_start_ns * (1.0 + play.clock_ppm * 1e-6));
+  return clock_began_camera_ns + std::llround(since_start_ns * (1.0 + play.clock_ppm * 1e-6));
 }
 
 // Which frame is shown, and the time that the camera tells of it.
@@ -178,7 +191,7 @@ void FakeHelios::Parts::lose(double fraction) {
 // In the thread of Aravis that also answers the control channel: must be over within a frame.
 void FakeHelios::Parts::fill(ArvBuffer* buffer, std::uint32_t format) {
   const double time_s = static_cast<double>(host::monotonic_now_ns() - began_ns) / kNanosecondsPerSecond;
-  apply_ptp();
+  apply_ptp(time_s);
   const std::int64_t utc_ns = host::utc_now_ns();
   const bool frozen = any_holds(play.freezes, time_s) && shown > 0;
   if (!frozen) take_picture(utc_ns);
@@ -197,7 +210,7 @@ void FakeHelios::Parts::fill(ArvBuffer* buffer, std::uint32_t format) {
 
 FakeHelios::FakeHelios(const FrameSequence& sequence, const CameraPlay& play, TruthRows* truth, std::int64_t began_ns)
     : parts_(std::make_unique<Parts>(sequence, play, truth, began_ns)) {
-  const DescriptionFile description(helios_description(offered_by(play)));
+  const DescriptionFile description(helios_description(offered_by(play), play.ptp_names, play.ptp_refused));
   parts_->camera.reset(arv_gv_fake_camera_new_full(play.address.c_str(), play.serial.c_str(), description.path()));
   if (arv_gv_fake_camera_is_running(parts_->camera.get()) == 0) {
     throw host::InputError("no camera can be served at " + play.address +

@@ -87,7 +87,37 @@ std::string category(const std::string& name, const std::vector<const char*>& fe
   return text + "</Category>\n";
 }
 
-std::string categories(bool depth) {
+struct PtpNodeNames {
+  const char* enable;
+  const char* status;
+  const char* latch;
+};
+
+PtpNodeNames ptp_node_names(PtpNames names) {
+  return names == PtpNames::kOld ? PtpNodeNames{"GevIEEE1588", "GevIEEE1588Status", "GevIEEE1588DataSetLatch"}
+                                 : PtpNodeNames{"PtpEnable", "PtpStatus", "PtpDataSetLatch"};
+}
+
+std::string ptp(PtpNames names, bool refused) {
+  if (names == PtpNames::kNone) return {};
+  const PtpNodeNames nodes = ptp_node_names(names);
+  const std::string enable = nodes.enable;
+  // A value that is computed cannot be written.
+  const std::string refusing = "<Boolean Name=\"" + enable + "\"><pValue>" + enable +
+                               "Off</pValue></Boolean>\n<IntSwissKnife Name=\"" + enable +
+                               "Off\"><Formula>0</Formula></IntSwissKnife>\n";
+  return (refused ? refusing : boolean(enable, kPtpEnableRegister)) +
+         enumeration(
+             nodes.status, kPtpStatusRegister,
+             {{"Initializing", 1}, {"Disabled", kPtpDisabled}, {"Listening", kPtpListening}, {"Slave", kPtpSlave}},
+             "RO") +
+         command(nodes.latch, "PtpLatchRegister", 1) + int_register("PtpLatchRegister", kPtpLatchRegister, "WO");
+}
+
+std::string categories(bool depth, PtpNames ptp_names) {
+  const PtpNodeNames nodes = ptp_node_names(ptp_names);
+  std::vector<const char*> transport{"PayloadSize"};
+  if (ptp_names != PtpNames::kNone) transport.insert(transport.end(), {nodes.enable, nodes.status, nodes.latch});
   std::vector<const char*> all{"DeviceControl", "ImageFormatControl", "AcquisitionControl", "TransportLayerControl"};
   if (depth) all.push_back("Scan3dControl");
   const std::string scan3d = category(
@@ -101,8 +131,7 @@ std::string categories(bool depth) {
                   {"SensorWidth", "SensorHeight", "OffsetX", "OffsetY", "Width", "Height", "PixelFormat"}) +
          category("AcquisitionControl", {"AcquisitionMode", "AcquisitionStart", "AcquisitionStop",
                                          "AcquisitionFrameRate", "ExposureTimeSelector"}) +
-         (depth ? scan3d : std::string()) +
-         category("TransportLayerControl", {"PayloadSize", "PtpEnable", "PtpStatus"});
+         (depth ? scan3d : std::string()) + category("TransportLayerControl", transport);
 }
 
 // Addresses below 0x400 are those of the fake camera's own registers and of GigE Vision's first page.
@@ -141,9 +170,6 @@ std::string transport() {
   return "<IntSwissKnife Name=\"PayloadSize\"><pVariable Name=\"W\">Width</pVariable><pVariable Name=\"H\">Height"
          "</pVariable><pVariable Name=\"F\">PixelFormat</pVariable><Formula>W * H * ((F &gt;&gt; 16) &amp; 0xFF) / 8"
          "</Formula></IntSwissKnife>\n<Integer Name=\"TLParamsLocked\"><Value>0</Value></Integer>\n" +
-         boolean("PtpEnable", kPtpEnableRegister) +
-         enumeration("PtpStatus", kPtpStatusRegister,
-                     {{"Initializing", 0}, {"Disabled", kPtpDisabled}, {"Listening", 4}, {"Slave", kPtpSlave}}, "RO") +
          command("TimestampLatch", "TimestampLatchRegister", 1) +
          int_register("TimestampLatchRegister", kClockLatchRegister, "WO") +
          "<IntReg Name=\"TimestampLatchValue\"><Address>" + hex(kClockRegister) +
@@ -154,7 +180,7 @@ std::string transport() {
 
 }  // namespace
 
-std::string helios_description(OfferedFormats formats) {
+std::string helios_description(OfferedFormats formats, PtpNames ptp_names, bool ptp_refused) {
   const bool depth = formats != OfferedFormats::kGrey;
   return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<RegisterDescription ModelName=\"Helios\" VendorName=\"LUCID\" "
          "StandardNameSpace=\"None\" SchemaMajorVersion=\"1\" SchemaMinorVersion=\"0\" SchemaSubMinorVersion=\"1\" "
@@ -162,8 +188,8 @@ std::string helios_description(OfferedFormats formats) {
          "VersionGuid=\"0\" xmlns=\"http://www.genicam.org/GenApi/Version_1_0\" "
          "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
          "xsi:schemaLocation=\"http://www.genicam.org/GenApi/Version_1_0 GenApiSchema.xsd\">\n" +
-         categories(depth) + device_and_image(formats) + acquisition() + (depth ? scan3d() : std::string()) +
-         transport() + "</RegisterDescription>\n";
+         categories(depth, ptp_names) + device_and_image(formats) + acquisition() + (depth ? scan3d() : std::string()) +
+         ptp(ptp_names, ptp_refused) + transport() + "</RegisterDescription>\n";
 }
 
 }  // namespace pharos::sim

@@ -18,7 +18,8 @@ inline constexpr std::array<const char*, 6> kHeliosModes{"Distance1250mmSingleFr
 inline constexpr std::uint32_t kModeRegister = 0x2000;
 inline constexpr std::uint32_t kAxisRegister = 0x2004;
 inline constexpr std::uint32_t kPtpEnableRegister = 0x2008;
-inline constexpr std::uint32_t kPtpStatusRegister = 0x200C;
+inline constexpr std::uint32_t kPtpStatusRegister = 0x200C;  // of the last latch
+inline constexpr std::uint32_t kPtpLatchRegister = 0x2024;
 inline constexpr std::uint32_t kClockLatchRegister = 0x2030;
 inline constexpr std::uint32_t kClockRegister = 0x2034;  // 64 bits: the camera's clock at its last frame
 inline constexpr std::uint32_t kScaleTable = 0x2100;     // mm a count: by mode, then by axis
@@ -28,6 +29,7 @@ inline constexpr std::uint32_t kModeStride = 3 * kAxisStride;
 
 inline constexpr std::uint32_t kPtpSlave = 9;  // values of PtpStatus, as IEEE 1588 numbers port states
 inline constexpr std::uint32_t kPtpDisabled = 3;
+inline constexpr std::uint32_t kPtpListening = 4;
 
 /// What the simulated camera offers.
 enum class OfferedFormats : std::uint8_t {
@@ -36,7 +38,15 @@ enum class OfferedFormats : std::uint8_t {
   kGrey,        // Mono8, Mono16: no depth camera at all
 };
 
+/// Its PTP nodes.
+enum class PtpNames : std::uint8_t {
+  kNew,   // PtpEnable, PtpStatus, PtpDataSetLatch
+  kOld,   // GevIEEE1588, GevIEEE1588Status, GevIEEE1588DataSetLatch
+  kNone,  // it does not know PTP
+};
+
 /// The GenICam description: the nodes of a Helios, or of a grey camera, that Pharos and its users meet.
-std::string helios_description(OfferedFormats formats);
+/// `ptp_refused`: an order to follow PTP is an error.
+std::string helios_description(OfferedFormats formats, PtpNames ptp_names, bool ptp_refused);
 
 }  // namespace pharos::sim

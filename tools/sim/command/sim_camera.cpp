@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -24,6 +25,9 @@ namespace {
 constexpr std::size_t kUsualFrames = 60;
 constexpr int kMaxFrames = 2000;
 
+const std::map<std::string, sim::PtpNames> kPtpNames{
+    {"new", sim::PtpNames::kNew}, {"old", sim::PtpNames::kOld}, {"none", sim::PtpNames::kNone}};
+
 struct CameraOptions {
   std::string input;
   std::uint64_t seed = 1;
@@ -33,6 +37,7 @@ struct CameraOptions {
   std::vector<std::string> stalls;
   std::vector<std::string> deaths;
   std::vector<std::string> freezes;
+  std::vector<std::string> masterless;
   double jitter_ms = 0.0;
   sim::CameraPlay play;
 };
@@ -76,6 +81,7 @@ int serve(CameraOptions options) {
   options.play.stalls = parse_intervals("--stall", options.stalls);
   options.play.deaths = parse_intervals("--death", options.deaths);
   options.play.freezes = parse_intervals("--freeze", options.freezes);
+  options.play.ptp_masterless = parse_intervals("--ptp-masterless", options.masterless);
   options.play.grey = !options.view.empty();
   options.play.clock_jitter_s = options.jitter_ms * 1e-3;
   const sim::FrameSequence reel = make_reel(options);
@@ -103,7 +109,12 @@ void add_behaviour(CLI::App& command, CameraOptions& options) {
       ->capture_default_str();
   command.add_option("--jitter-ms", options.jitter_ms, "with --view: sigma of what the camera's times are off")
       ->check(number_from(0.0, 1000.0));
-  command.add_flag("--ptp", play.ptp, "follow UTC once PtpEnable is set");
+  command.add_flag("--ptp", play.ptp, "follow UTC once it is told to (PtpEnable)");
+  command.add_option("--ptp-names", play.ptp_names, "PtpEnable (new), GevIEEE1588 (old), or no PTP (none)")
+      ->transform(CLI::CheckedTransformer(kPtpNames));
+  command.add_flag("--ptp-refused", play.ptp_refused, "take no order to follow PTP");
+  command.add_option("--ptp-masterless", options.masterless,
+                     "AT,FOR: no PTP master from AT s for FOR s (may be repeated)");
 }
 
 }  // namespace

@@ -72,12 +72,16 @@ TEST(CameraMessage, AnOrderAndAReportComeThrough) {
   CameraReport report{CameraState::kTaken, 5, {}, "LUCID", "another program controls it"};
   report.counters.frames_received = 123;
   report.counters.datagrams_discarded = 456;
+  report.ptp = PtpState::kUnread;
+  report.ptp_lost = true;
   const auto told = through(report);
   ASSERT_TRUE(told);
   EXPECT_EQ(told->state, CameraState::kTaken);
   EXPECT_EQ(told->counters.frames_received, 123);
   EXPECT_EQ(told->counters.datagrams_discarded, 456);
   EXPECT_EQ(told->error, report.error);
+  EXPECT_EQ(told->ptp, PtpState::kUnread);
+  EXPECT_TRUE(told->ptp_lost);
 }
 
 TEST(CameraMessage, TextsAreCutAndHoldNothingThatALogWouldMindAbout) {

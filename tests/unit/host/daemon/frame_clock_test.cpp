@@ -82,6 +82,32 @@ TEST(FrameClock, AcceptsPtpButForWholeSeconds) {
   }
 }
 
+// The camera's delay is not observable from arrivals; what PTP showed of it is not forgotten with its master.
+TEST(FrameClock, KeepsTheDelayThatPtpShowedWhenTheCameraNoLongerFollowsIt) {
+  FakeCamera camera;
+  camera.clock = CameraClock::kPtp;
+  camera.camera_zero_ns = kUtcZero + 37 * kSecond;
+  camera.drift_ppm = 20;  // as of the master against this computer
+  FrameClock clock;
+  std::optional<MappedTime> time;
+  std::int64_t at_ns = 0;
+  for (int i = 0; i < 300; ++i, at_ns += kPeriod) clock.time_of(camera.frame(at_ns, (12 + i * 7 % 11) * kMs));
+  ASSERT_TRUE(clock.by_ptp());
+  camera.clock = CameraClock::kOwn;
+  for (int i = 0; i < 300; ++i, at_ns += kPeriod) {
+    time = clock.time_of(camera.frame(at_ns, (12 + i * 7 % 11) * kMs));
+    ASSERT_TRUE(time);
+    ASSERT_FALSE(clock.by_ptp());
+    EXPECT_GT(time->sigma_ns, FrameClock::kPtpSigma_ns);
+    ASSERT_NEAR(static_cast<double>(time->utc_ns - (kUtcZero + at_ns)), 0.0, 0.5 * kMs);
+    ASSERT_NEAR(static_cast<double>(time->monotonic_ns - (50 * kSecond + at_ns)), 0.0, 0.5 * kMs);
+  }
+  camera.session = 2;  // perhaps in another mode, with another delay
+  for (int i = 0; i < 30; ++i, at_ns += kPeriod) time = clock.time_of(camera.frame(at_ns, 12 * kMs));
+  ASSERT_TRUE(time);
+  EXPECT_NEAR(static_cast<double>(time->utc_ns - (kUtcZero + at_ns - kPeriod)), 12.0 * kMs, 1.0 * kMs);
+}
+
 TEST(FrameClock, RejectsPtpThatDisagreesWithArrivals) {
   FakeCamera camera;
   camera.clock = CameraClock::kPtp;

@@ -126,6 +126,31 @@ TEST(WatchTable, ADaemonTellsWhatIsWrongAndIsSilentAfterThreeSeconds) {
   EXPECT_THAT(lines, Contains(HasSubstr("SILENT for 4.0 s")));
 }
 
+TEST(WatchTable, ADaemonTellsWhichCamerasFollowPtp) {
+  SourceTable table;
+  status_t status{};
+  status.host = "chaser";
+  status.state = "ok";
+  const auto add_source = [&](const char* name, const std::vector<std::pair<const char*, int>>& counters) {
+    source_status_t& source = status.sources.emplace_back();
+    source.source = name;
+    source.target = "dock";
+    source.state = "ok";
+    for (const auto& [counter, value] : counters) source.counters.push_back({counter, value});
+    source.counter_count = static_cast<int>(source.counters.size());
+    ++status.source_count;
+  };
+  add_source("tof/helios", {{"clock.ptp_state", 9}});
+  add_source("ring2/rig", {{"left.clock.ptp_state", 9}, {"right.clock.ptp_state", 4}});
+  add_source("tof/own", {{"clock.ptp_state", 0}});
+  add_source("tof/other", {{"clock.ptp_state", 99}});
+  table.add(status, kSecond_ns);
+  const auto lines = watch_lines(table, kSecond_ns, kWide);
+  EXPECT_THAT(lines, Contains("  tof/helios dock: PTP slave"));
+  EXPECT_THAT(lines, Contains("  ring2/rig dock: left PTP slave, right PTP listening"));
+  EXPECT_THAT(lines, Each(Not(HasSubstr("tof/o"))));
+}
+
 TEST(WatchTable, APointingIsARowToo) {
   SourceTable table;
   pointing_t pointing{};

@@ -115,6 +115,25 @@ TEST(MountingCalibration, FindsMountingsFeaturesDelaysAndSlowErrorsOfAMinute) {
   EXPECT_LT(std::abs(log_sum / static_cast<double>(log_ratios.size())), std::log(1.6));
 }
 
+// What the given source states and its residuals do not show is common to all of its poses: nothing else takes it up.
+TEST(MountingCalibration, WhatTheGivenSourcesResidualsDoNotShowIsItsSlowError) {
+  const sim::ApproachSimulator simulator(scenario(), 1);
+  MountingCalibrationInput input = recorded(simulator);
+  constexpr double kStatedOverNoise = 2.0;
+  input.recordings.resize(2);  // lighthouse, tof
+  for (MountingRecording& recording : input.recordings) {
+    for (host::SourceRow& row : recording.rows) row.covariance *= kStatedOverNoise * kStatedOverNoise;
+  }
+  const MountingCalibration found = calibrate_mounting(input);
+  const double unseen = std::sqrt(1.0 - 1.0 / (kStatedOverNoise * kStatedOverNoise));
+  const auto slow_of = [&](std::size_t source) { return *found.mounting.sources[source].slow_error; };
+  for (const double ratio : {slow_of(0).rotation_ratio, slow_of(0).position_ratio}) {
+    EXPECT_GT(ratio, 0.8 * unseen);
+    EXPECT_LT(ratio, unseen + 0.05);
+  }
+  EXPECT_LT(slow_of(1).position_ratio, 0.5);  // a mounting takes up what its source's poses have in common
+}
+
 TEST(MountingCalibration, NamesTheTurnOfARingAndLeavesItOpen) {
   const sim::ApproachSimulator simulator(scenario(), 4);
   const MountingCalibration found = calibrate_mounting(recorded(simulator));
