@@ -50,9 +50,9 @@ def rows(pharos, file):
     return sorted(done.stdout.splitlines()[1:])
 
 
-def check_poses(pharos, light, line):
+def check_poses(pharos, edges, table, line):
     frames = tape.frames_of(line.read_bytes())
-    target, host = dict(poses_test.target_rows(frames)), dict(poses_test.host_rows(pharos, light))
+    target, host = dict(poses_test.target_rows(frames)), dict(poses_test.host_rows(pharos, edges, table))
     device = tape.device_counters(frames)
     begin, end = min(time for _, time in target) + START_TICKS, max(time for _, time in target)
     wanted = [key for key, row in host.items() if begin <= key[1] < end and row["status"] == "ok"]
@@ -88,7 +88,7 @@ def main():
         print(f"{len(here)} rows of the host, {len(there)} of the chip")
         assert len(here) > 100 * seconds and here == there, "host and chip differ"
         if seconds > CALIBRATED_S:
-            check_poses(pharos, light, line)
+            check_poses(pharos, edges, light / "target.csv", line)
     return 0
 
 
