@@ -3,7 +3,7 @@
 # usage: chip_flashes.sh BUILD [ep4ce10|up5k [PROGRAM]]: `pharos flash`'s own sender writes PROGRAM (decoder) into the simulated chip, whose loader
 # verifies, marks and starts it; then a forged image is refused and a power cycle starts the program. With `decoder_pose`, whose 237 kB go to the
 # SDRAM, the forged image is the decoder's, and what is then in the flash is started before light of two stations: sweeps and poses are the host's
-# (chip_poses.py; 1,100 million ticks together, 4 minutes of a processor at 5 million a second). Prints the times of README. 77 = skipped.
+# (chip_poses.py; 1,400 million ticks together, 5 to 14 minutes of a processor). Prints the times of README. 77 = skipped.
 set -euo pipefail
 build=$1 chip=${2:-ep4ce10} program=${3:-decoder}
 images=$build/firmware/bin
