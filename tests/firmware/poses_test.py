@@ -33,9 +33,9 @@ def target_rows(frames):
             yield (station, time), (flags, struct.unpack_from("<7d", payload, 14) if content & 1 else None)
 
 
-def host_rows(pharos, light):
-    done = subprocess.run([pharos, "track", light / "edges.csv.gz", "--method", "epoch", "--target", light / "target.csv"], check=True, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+def host_rows(pharos, edges, target):
+    done = subprocess.run([pharos, "track", edges, "--method", "epoch", "--target", target], check=True, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL)
     for row in csv.DictReader(done.stdout.splitlines()):
         yield (int(row["station"]), round(float(row["time_s"]) * 50e6)), row
 
@@ -53,7 +53,7 @@ def frames_at(image, words, cycles):
 
 def keeps_up(pharos, image, light, words):
     frames = frames_at(image, words, 3)
-    target, host = dict(target_rows(frames)), dict(host_rows(pharos, light))
+    target, host = dict(target_rows(frames)), dict(host_rows(pharos, light / "edges.csv.gz", light / "target.csv"))
     device = tape.device_counters(frames)
     begin = min(time for _, time in target) + START_TICKS
     end = max(time for _, time in target)

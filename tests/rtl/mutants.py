@@ -3,7 +3,7 @@
 """Plants one fault at a time in a copy of some logic; the test bench must fail on every one of them, and only then.
 
 A mutant that lives means that the bench has a hole. `--few` takes those that stand for the bench's main promises, `--part 2/4` every
-fourth from the second on.
+fourth from the second on, `--from NAME` that one and those after it: a run that was cut short goes on there.
 """
 
 import argparse
@@ -76,16 +76,21 @@ def main():
     parser.add_argument("--mutations", default="mutations", help="the module with the faults")
     parser.add_argument("--few", action="store_true")
     parser.add_argument("--part", default="1/1", metavar="I/N")
+    parser.add_argument("--from", dest="first", metavar="NAME")
     parser.add_argument("bench", nargs="+", help="objects and libraries of the bench, built for these parameters")
     arguments = parser.parse_args()
     arguments.build = arguments.build / ("few" if arguments.few else "all")
     faults = importlib.import_module(arguments.mutations)
+    listed = [mutation for mutation in faults.MUTATIONS if not arguments.few or mutation[0] in faults.FEW]
+    names = [mutation[0] for mutation in listed]
+    if arguments.first and arguments.first not in names:
+        parser.error(f"no mutant is named {arguments.first}")
+    part, parts = map(int, arguments.part.split("/"))
+    chosen = listed[names.index(arguments.first) if arguments.first else 0 :][part - 1 :: parts]
     workshop = Workshop(arguments)
 
     if workshop.bench_on("unharmed", "", "", "") != 0:
         sys.exit("the bench fails on the logic as it is")
-    part, parts = map(int, arguments.part.split("/"))
-    chosen = [mutation for mutation in faults.MUTATIONS if not arguments.few or mutation[0] in faults.FEW][part - 1 :: parts]
     alive = []
     for name, *mutation in chosen:
         killed = workshop.bench_on(name, *mutation) != 0

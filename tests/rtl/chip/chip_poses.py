@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""usage: chip_poses.py BUILD [SECONDS [boot]]: `decoder_pose` on the simulated chip, its code in the SDRAM behind the cache, two stations at full rate:
+"""usage: chip_poses.py BUILD [SECONDS [boot | FLASH]]: `decoder_pose` on the simulated chip, its code in the SDRAM behind the cache, two stations at full rate:
 its sweeps are the host's to the tick; once both stations are calibrated every cycle is answered, by the pose that `pharos track` gives the
 same light, to a tenth of a standard deviation, and no sweep is skipped; the model of the SDRAM has no objection. With less
-than 10 seconds of light there are no poses yet: the sweeps alone. Starts in the SDRAM; with `boot` from the flash, from which the loader copies it. Prints the figures of firmware/rtl/soc/README.md. 77 = skipped."""
+than 10 seconds of light there are no poses yet: the sweeps alone. Starts in the SDRAM; with `boot` from the flash, from which the loader copies it; with FLASH from that content of the flash,
+as chip_flash leaves it. Prints the figures of firmware/rtl/soc/README.md. 77 = skipped."""
 
 import gzip
 import pathlib
@@ -49,9 +50,9 @@ def rows(pharos, file):
     return sorted(done.stdout.splitlines()[1:])
 
 
-def check_poses(pharos, light, line):
+def check_poses(pharos, edges, table, line):
     frames = tape.frames_of(line.read_bytes())
-    target, host = dict(poses_test.target_rows(frames)), dict(poses_test.host_rows(pharos, light))
+    target, host = dict(poses_test.target_rows(frames)), dict(poses_test.host_rows(pharos, edges, table))
     device = tape.device_counters(frames)
     begin, end = min(time for _, time in target) + START_TICKS, max(time for _, time in target)
     wanted = [key for key, row in host.items() if begin <= key[1] < end and row["status"] == "ok"]
@@ -70,8 +71,9 @@ def main():
     build, seconds = pathlib.Path(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 11.5
     images = build / "firmware" / "bin"
     program = ["--external", images / "decoder_pose.ep4ce10.bin"]
-    if boots := sys.argv[3:] == ["boot"]:
-        program = ["--image", images / "decoder_pose.ep4ce10.image", "--loader", images / "ep4ce10_loader.bin"]
+    if boots := len(sys.argv) > 3:
+        start = ["--image", images / "decoder_pose.ep4ce10.image"] if sys.argv[3] == "boot" else ["--flash", pathlib.Path(sys.argv[3])]
+        program = [*start, "--loader", images / "ep4ce10_loader.bin"]
     if not program[1].exists():
         print("skipped: the images are not built (target firmware)")
         return 77
@@ -86,7 +88,7 @@ def main():
         print(f"{len(here)} rows of the host, {len(there)} of the chip")
         assert len(here) > 100 * seconds and here == there, "host and chip differ"
         if seconds > CALIBRATED_S:
-            check_poses(pharos, light, line)
+            check_poses(pharos, edges, light / "target.csv", line)
     return 0
 
 

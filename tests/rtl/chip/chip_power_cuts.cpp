@@ -9,13 +9,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "host/support/input_error.hpp"
 #include "pharos/boot_image/slot.hpp"
 #include "rtl/chip/chip_bench.hpp"
+#include "rtl/chip/chip_files.hpp"
 #include "rtl/chip/chip_flash_line.hpp"
 #include "rtl/chip/chip_kinds.hpp"
 #include "tools/flash/flasher.hpp"
@@ -27,12 +26,6 @@ constexpr std::uint32_t kSlotBytes = 0x40000;
 const ChipKind& kChip = kChips.front();
 
 using Bytes = std::vector<std::uint8_t>;
-
-Bytes bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw host::InputError(path + ": cannot be read");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::uint32_t slot_at(std::uint32_t number) { return kChip.first_slot + number * kSlotBytes; }
 

@@ -5,11 +5,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "host/support/input_error.hpp"
-#include "host/table/edges_reader.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/boot_image/slot.hpp"
 #include "pharos/wire/codec.hpp"
@@ -17,7 +14,9 @@
 #include "pharos/wire/frame_decoder.hpp"
 #include "pharos/wire/sweep_message.hpp"
 #include "rtl/chip/chip_bench.hpp"
+#include "rtl/chip/chip_files.hpp"
 #include "rtl/chip/chip_kinds.hpp"
+#include "rtl/chip/chip_light.hpp"
 
 namespace pharos::rtl {
 namespace {
@@ -28,6 +27,7 @@ struct Arguments {
   std::string external;
   std::string loader;
   std::string image;
+  std::string flash;
   std::string output;
   std::string stamped;
   std::string chip = kChips.front().name;
@@ -39,13 +39,8 @@ struct Arguments {
 constexpr std::int64_t kLead_ticks = 10 * kTicksPerSecond / 1000;
 constexpr std::int64_t kLoaderLead_ticks = 4 * kTicksPerSecond / 10;  // waits 0.2 s for a host
 constexpr std::int64_t kLoaderLeadOfByte_ticks = 400;                 // copies and hashes the image
+constexpr std::int64_t kSlotBytes = 0x40000;
 constexpr std::int64_t kTail_ticks = 60 * kTicksPerSecond / 1000;
-
-std::vector<std::uint8_t> bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw host::InputError(path + ": cannot be read");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// An image as the loader leaves it in the flash: with its mark.
 std::vector<std::uint8_t> marked(std::vector<std::uint8_t> image) {
@@ -55,18 +50,6 @@ std::vector<std::uint8_t> marked(std::vector<std::uint8_t> image) {
   head.mark = boot_image::make_mark(head.image, 1);
   std::memcpy(image.data(), &head, sizeof head);
   return image;
-}
-
-std::vector<lighthouse::RawPulse> pulses_of(const Arguments& arguments) {
-  host::EdgesReader reader{host::ByteSource(arguments.edges)};
-  std::vector<lighthouse::RawPulse> pulses;
-  while (const auto pulse = reader.next()) pulses.push_back(*pulse);
-  if (pulses.empty()) throw host::InputError(arguments.edges + ": no edges");
-  const auto first = std::ranges::min(pulses, {}, &lighthouse::RawPulse::rise_ticks).rise_ticks;
-  std::erase_if(pulses, [&](const lighthouse::RawPulse& pulse) {
-    return ticks_to_seconds(pulse.rise_ticks - first) >= arguments.seconds;
-  });
-  return pulses;
 }
 
 /// What arrives on the line, and how long after the light.
@@ -126,25 +109,21 @@ void run_until(ChipBench& bench, std::int64_t end_ticks, LineLog& log) {
   }
 }
 
-void write_pulses(const std::string& path, const std::vector<lighthouse::RawPulse>& pulses) {
-  std::ofstream file(path);
-  file << "sensor,rise_ticks,fall_ticks\n";
-  for (const lighthouse::RawPulse& pulse : pulses) {
-    file << int{pulse.sensor} << ',' << pulse.rise_ticks << ',' << pulse.fall_ticks << '\n';
-  }
-  file.close();
-  if (!file) throw host::InputError(path + ": cannot be written");
-}
-
 int run(const Arguments& arguments) {
-  const auto pulses = pulses_of(arguments);
-  const auto first = std::ranges::min(pulses, {}, &lighthouse::RawPulse::rise_ticks).rise_ticks;
-  const auto last = std::ranges::max(pulses, {}, &lighthouse::RawPulse::fall_ticks).fall_ticks;
+  const ChipLight light = read_light(arguments.edges, arguments.seconds);
+  const std::int64_t first = light.first_ticks;
+  const std::int64_t last = light.last_ticks;
   const ChipKind& chip = chip_named(arguments.chip);
   ChipBench bench(chip.make());
   std::int64_t lead = kLead_ticks;
   if (!arguments.external.empty()) {
     bench.start_in_sdram(bytes_of(arguments.external));
+  } else if (!arguments.flash.empty()) {
+    const auto content = bytes_of(arguments.flash);
+    if (content.size() != ChipBench::kFlashBytes) throw host::InputError(arguments.flash + ": is not the whole flash");
+    lead = kLoaderLead_ticks + kLoaderLeadOfByte_ticks * kSlotBytes;
+    bench.flash().content() = content;
+    bench.device().set_rom(bytes_of(arguments.loader));
   } else if (arguments.program.empty()) {
     const auto image = marked(bytes_of(arguments.image));
     lead = kLoaderLead_ticks + kLoaderLeadOfByte_ticks * static_cast<std::int64_t>(image.size());
@@ -156,7 +135,7 @@ int run(const Arguments& arguments) {
   bench.device().set_ticks(first - lead);
   const auto begin = std::chrono::steady_clock::now();
   bench.power_on();
-  bench.set_light(pulses);
+  bench.set_light(light.pulses);
   LineLog log;
   run_until(bench, first, log);
   (void)bench.take_counts();
@@ -169,21 +148,18 @@ int run(const Arguments& arguments) {
   run_until(bench, last + kTail_ticks, log);
   const auto& frames = log.bytes();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  std::ofstream file(arguments.output, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(frames.data()), static_cast<std::streamsize>(frames.size()));
-  file.close();
-  if (!file) throw host::InputError(arguments.output + ": cannot be written");
+  write_bytes(arguments.output, frames);
   if (!arguments.stamped.empty()) write_pulses(arguments.stamped, bench.stamped());
   std::fprintf(stderr,
                "%zu pulses in %.3f s, %zu bytes sent, %u framing errors; %.3f M instructions, %.3f cycles each, "
                "at most %u records in the FIFO; last edge of a sweep to the end of its frame %.2f ms at worst, %.2f ms "
                "mean; at most %.1f %% busy in a second; %.2f M ticks a second\n",
-               pulses.size(), ticks_to_seconds(last - first), frames.size(), bench.line().framing_errors(),
+               light.pulses.size(), ticks_to_seconds(last - first), frames.size(), bench.line().framing_errors(),
                static_cast<double>(counts.instructions) * 1e-6,
                static_cast<double>(counts.ticks) / static_cast<double>(std::max<std::uint64_t>(counts.instructions, 1)),
                counts.worst_fill, log.worst_s() * 1e3, log.mean_s() * 1e3, 0.1 * log.worst_busy_permille(),
                static_cast<double>(last - first + lead + kTail_ticks) * 1e-6 / std::max(seconds, 1e-9));
-  if (!arguments.image.empty()) {
+  if (!arguments.loader.empty()) {
     std::fprintf(stderr, "first byte %.3f s after power on\n", ticks_to_seconds(log.first_ticks() - (first - lead)));
   }
   if (counts.external_fetches != 0) {
@@ -218,10 +194,13 @@ int main(int count, char** values) {
   auto* program = app.add_option("--program", arguments.program, "bytes for the RAM, started without the loader");
   auto* image =
       app.add_option("--image", arguments.image, "image in the first slot of the flash, which the loader starts");
-  app.add_option("--loader", arguments.loader, "bytes of the boot ROM")->needs(image);
+  auto* flash = app.add_option("--flash", arguments.flash,
+                               "whole content of the flash, as chip_flash writes it, from which the loader starts");
+  app.add_option("--loader", arguments.loader, "bytes of the boot ROM");
   auto* external = app.add_option("--external", arguments.external, "bytes for the SDRAM, started without the loader");
-  program->excludes(image)->excludes(external);
-  external->excludes(image);
+  program->excludes(image)->excludes(external)->excludes(flash);
+  external->excludes(image)->excludes(flash);
+  flash->excludes(image);
   app.add_option("--output", arguments.output, "file for the bytes of the serial line")->required();
   app.add_option("--chip", arguments.chip, "ep4ce10, or up5k with four inputs")
       ->check(CLI::IsMember({"ep4ce10", "up5k"}));
@@ -232,8 +211,9 @@ int main(int count, char** values) {
                  "seconds of light before instructions, cycles and fetches are counted");
   CLI11_PARSE(app, count, values);
   try {
-    if (arguments.program.empty() && arguments.external.empty() && arguments.loader.empty())
-      throw pharos::host::InputError("--program, --external, or --image and --loader");
+    if (arguments.program.empty() && arguments.external.empty() &&
+        (arguments.loader.empty() || (arguments.image.empty() && arguments.flash.empty())))
+      throw pharos::host::InputError("--program, --external, or --loader and --image or --flash");
     return pharos::rtl::run(arguments);
   } catch (const pharos::host::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
