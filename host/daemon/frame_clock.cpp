@@ -43,6 +43,11 @@ std::optional<MappedTime> FrameClock::time_of(const DepthFrame& frame) {
   return MappedTime{mapped->utc_ns + early_ns, mapped->monotonic_ns + early_ns, kPtpSigma_ns};
 }
 
+std::int64_t FrameClock::sigma_ns() const {
+  if (!map_.synchronised()) return 0;
+  return by_ptp_ ? kPtpSigma_ns : map_.sigma_ns() + (delay_ns_ ? kPtpSigma_ns : 0);
+}
+
 // Both errors are taken as of one sign.
 std::optional<MappedTime> FrameClock::less_delay(const std::optional<MappedTime>& mapped) const {
   if (!mapped || !delay_ns_) return mapped;

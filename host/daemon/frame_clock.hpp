@@ -21,6 +21,8 @@ class FrameClock {
   std::optional<MappedTime> time_of(const DepthFrame& frame);
 
   bool by_ptp() const { return by_ptp_; }
+  /// Of the newest times; 0 while there are none.
+  std::int64_t sigma_ns() const;
   /// Frames whose PTP time disagreed with their arrival and was not used.
   std::int64_t ptp_doubted() const { return ptp_rejected_; }
   const ClockMap& map() const { return map_; }

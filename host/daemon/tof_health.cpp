@@ -18,10 +18,8 @@ SourceHealth TofPipeline::health(const std::string& device, const FrameSourceSta
   health.device = device;
   health.identity = camera.identity;
   rate_.report(health, monotonic_ns);
-  const ClockMap& map = clock_.map();
-  health.clock_sigma_ns = map.synchronised() ? static_cast<double>(map.sigma_ns()) : 0.0;
-  if (clock_.by_ptp()) health.clock_sigma_ns = static_cast<double>(FrameClock::kPtpSigma_ns);
-  health.clock_drift_ppm = map.drift_ppm();
+  health.clock_sigma_ns = static_cast<double>(clock_.sigma_ns());
+  health.clock_drift_ppm = clock_.map().drift_ppm();
   health.counters = named_counts(camera);
   assess(health, camera, monotonic_ns);
   return health;

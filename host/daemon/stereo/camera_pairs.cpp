@@ -117,17 +117,13 @@ PairSourceStatus CameraPairs::status() const {
     // A frame lost on one side leaves one without a partner on the other: the worse side has lost the pairs.
     status.pairs.lost = std::max(status.pairs.lost, delivered(cameras[side].counters).lost + matcher_.unpaired(side));
     status.session += cameras[side].session;
-    const ClockMap& map = clocks_[side].map();
-    if (map.synchronised()) {
-      status.clock_sigma_ns = std::max(status.clock_sigma_ns, static_cast<double>(map.sigma_ns()));
-    }
+    status.clock_sigma_ns = std::max(status.clock_sigma_ns, static_cast<double>(clocks_[side].sigma_ns()));
   }
   if (status.error.empty() && matcher_.unpaired(0) + matcher_.unpaired(1) - unpaired_at_last_pair_ >= kManyAlone) {
     status.error =
         "frames of both cameras come, and no two within pairing_window_ms: trigger the shutters together, "
         "let both cameras follow PTP, or widen it";
   }
-  if (clocks_[0].by_ptp() && clocks_[1].by_ptp()) status.clock_sigma_ns = FrameClock::kPtpSigma_ns;
   status.clock_drift_ppm = clocks_[0].map().drift_ppm();
   status.counters = named_counts(cameras);
   return status;
