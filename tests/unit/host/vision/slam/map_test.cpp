@@ -98,7 +98,8 @@ TEST_F(MapOfTurns, ARemovedKeyframeIsStillKnownByItsPlace) {
 
 // No adjustment corrects what lies between a removed keyframe and the one that it is relative to.
 TEST_F(MapOfTurns, ARemovedKeyframeIsAsUncertainAsItsPathWasLong) {
-  for (auto& [id, keyframe] : map_.keyframes) keyframe.covariance = 1e-6 * id * Matrix6::Identity();
+  for (auto& [id, keyframe] : map_.keyframes)
+    keyframe.covariance = 1e-6 * static_cast<double>(id) * Matrix6::Identity();
   for (const KeyframeId id : {5, 4}) map_.remove_keyframe(id);
   EXPECT_LT((map_.covariance_of(5) - 5e-6 * Matrix6::Identity()).norm(), 1e-12);
   // A loop was closed: what is still in the map is better known, in any order.
