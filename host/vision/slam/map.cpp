@@ -89,7 +89,7 @@ void Map::reparent(Keyframe& orphan, KeyframeId removed, KeyframeId grandparent)
 namespace {
 
 // Covariances along a path from the first keyframe add; whichever of the two lies farther has the larger one.
-Matrix6 between(const Matrix6& a, const Matrix6& b) {
+Matrix6 covariance_between(const Matrix6& a, const Matrix6& b) {
   const Eigen::SelfAdjointEigenSolver<Matrix6> difference(a - b);
   if (difference.info() != Eigen::Success) return a + b;
   return difference.eigenvectors() * difference.eigenvalues().cwiseAbs().asDiagonal() *
@@ -103,7 +103,8 @@ void Map::remove_keyframe(KeyframeId id) {
   if (at == keyframes.end() || at->second.parent == kNone) return;
   Keyframe& gone = at->second;
   const Keyframe& parent = keyframes.at(gone.parent);
-  removed_[id] = {gone.parent, gone.pose * parent.pose.inverse(), between(gone.covariance, parent.covariance)};
+  removed_[id] = {gone.parent, gone.pose * parent.pose.inverse(),
+                  covariance_between(gone.covariance, parent.covariance)};
   const std::vector<PointId> seen = gone.points;
   for (const PointId point : seen) {
     if (point != kNone) forget_observation(point, id);

@@ -100,30 +100,40 @@ TEST(FusionFilter, CommonNoiseOfASourceDoesNotAverageOut) {
   EXPECT_GT(filter.pose_covariance().diagonal().tail(3).minCoeff(), 0.9e-6);
 }
 
+// The slow error of its only source is as large as the noise that it states.
+std::unique_ptr<TargetEstimator> one_source_with_slow_error(double prior_variance, double time_constant_s) {
+  Settings settings;
+  SourceSettings source;
+  source.bias_frame = BiasFrame::kFeature;
+  source.bias_covariance = Matrix6::Identity() * prior_variance;
+  source.own_rotation_ratio = source.own_position_ratio = 1.0;
+  source.bias_time_constant_s = time_constant_s;
+  settings.sources.push_back(source);
+  return std::make_unique<TargetEstimator>(settings);
+}
+
+// The k-th measurement of a target at rest.
+Measurement at_rest(std::int64_t time_ns, int k, double sigma) {
+  Vector6 noise;
+  for (int i = 0; i < 6; ++i) noise[i] = sigma * std::sin(k * (1.7 + 0.31 * i));
+  const TargetPose seen = kSomePose.moved_by(noise);
+  Measurement m;
+  m.time_ns = time_ns;
+  m.pose = {seen.R, seen.t};
+  m.covariance = Matrix6::Identity() * (sigma * sigma);
+  return m;
+}
+
 // A source's slow error goes with the noise that it states. A target at rest, a stated noise that wavers by 15 %: the
 // error neither wavers with it nor becomes known, so the state is never surer than that error.
 TEST(FusionFilter, AStatedNoiseThatWaversDoesNotMeasureTheSlowError) {
   constexpr double kSigma = 1e-4, kRate_hz = 60.0;
-  Settings settings;
-  SourceSettings source;
-  source.bias_frame = BiasFrame::kFeature;
-  source.bias_covariance = Matrix6::Identity() * 1e-12;
-  source.own_rotation_ratio = source.own_position_ratio = 1.0;
-  source.bias_time_constant_s = 300.0;
-  settings.sources.push_back(source);
-  const auto estimator = std::make_unique<TargetEstimator>(settings);
+  const auto estimator = one_source_with_slow_error(1e-12, 300.0);
   std::int64_t time_ns = 0;
   for (int k = 0; k < 1800; ++k) {
     const double time_s = k / kRate_hz;
-    Measurement m;
-    m.time_ns = time_ns = std::llround(time_s * 1e9);
-    const double sigma = kSigma * (1.0 + 0.15 * std::sin(1.9 * time_s));
-    Vector6 noise;
-    for (int i = 0; i < 6; ++i) noise[i] = sigma * std::sin(k * (1.7 + 0.31 * i));
-    const TargetPose seen = kSomePose.moved_by(noise);
-    m.pose = {seen.R, seen.t};
-    m.covariance = Matrix6::Identity() * (sigma * sigma);
-    estimator->push(m);
+    time_ns = std::llround(time_s * 1e9);
+    estimator->push(at_rest(time_ns, k, kSigma * (1.0 + 0.15 * std::sin(1.9 * time_s))));
   }
   const TargetState state = estimator->state(time_ns);
   ASSERT_TRUE(state.valid);
@@ -133,28 +143,15 @@ TEST(FusionFilter, AStatedNoiseThatWaversDoesNotMeasureTheSlowError) {
 // An approach: the stated noise falls by 2 % a second. The slow error is followed in steps, in the mean as it is.
 TEST(FusionFilter, ASlowErrorThatFallsWithTheNoiseIsNotOverstatedInTheMean) {
   constexpr double kRate_hz = 60.0, kFall_per_s = 0.02;
-  Settings settings;
-  SourceSettings source;
-  source.bias_frame = BiasFrame::kFeature;
-  source.bias_covariance = Matrix6::Identity() * 1e-14;
-  source.own_rotation_ratio = source.own_position_ratio = 1.0;
-  source.bias_time_constant_s = 30.0;
-  settings.sources.push_back(source);
-  const auto estimator = std::make_unique<TargetEstimator>(settings);
+  const auto estimator = one_source_with_slow_error(1e-14, 30.0);
   double ratios = 0.0;
   int count = 0;
   for (int k = 0; k < 6000; ++k) {
     const double sigma = 1e-3 * std::exp(-kFall_per_s * k / kRate_hz);
-    Measurement m;
-    m.time_ns = std::llround(k / kRate_hz * 1e9);
-    Vector6 noise;
-    for (int i = 0; i < 6; ++i) noise[i] = sigma * std::sin(k * (1.7 + 0.31 * i));
-    const TargetPose seen = kSomePose.moved_by(noise);
-    m.pose = {seen.R, seen.t};
-    m.covariance = Matrix6::Identity() * (sigma * sigma);
-    estimator->push(m);
+    const std::int64_t time_ns = std::llround(k / kRate_hz * 1e9);
+    estimator->push(at_rest(time_ns, k, sigma));
     if (k < 1200 || k % 10 != 0) continue;
-    ratios += std::sqrt(estimator->state(m.time_ns).covariance(3, 3)) / sigma;
+    ratios += std::sqrt(estimator->state(time_ns).covariance(3, 3)) / sigma;
     ++count;
   }
   EXPECT_NEAR(ratios / count, 1.0, 0.09);
