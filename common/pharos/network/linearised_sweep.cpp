@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kNearest_m = 0.05;  // nearer to a station no sensor is lit
 constexpr double kHitGate = 5.0;     // standard deviations beyond which a hit does not belong to this body
+// A photodiode sees nothing from behind; its normal may be wrong by so much (sine), beside the attitude's own sigmas.
+constexpr double kBehind = 0.1, kBehindSigmas = 3.0;
 
 // Sensors must be placed this much better than the target is large for its apparent size to tell the range: errors of
 // placement and a tilt are the same in every sweep, and 1 % of size is 30 mm of range at 3 m.
@@ -28,6 +30,7 @@ struct Candidate {
   double residual_rad = 0.0;
   double variance = 0.0;
   double dt_s = 0.0;
+  bool from_behind = false;
   Vector3 q_m = Vector3::Zero();       // from the body's origin to the sensor, world frame
   Vector3 gradient = Vector3::Zero();  // of the angle by the point, world frame
 };
@@ -55,6 +58,15 @@ Candidates nearest_to(double centre, const Candidates& all) {
     }
   }
   return chosen;
+}
+
+// Light that came through the body: of another attitude.
+bool is_from_behind(const SensorPlacement& sensor, const Vector3& from_m, const NetworkState& state) {
+  if (!sensor.has_normal()) return false;
+  const Vector3 normal = state.pose.R * sensor.normal, ray = from_m.normalized();
+  const Vector3 by_turn = normal.cross(ray);
+  const double sigma = std::sqrt(std::max(0.0, by_turn.dot(state.covariance.topLeftCorner<3, 3>() * by_turn)));
+  return normal.dot(ray) > kBehind + kBehindSigmas * sigma;
 }
 
 Vector6 by_pose(const Candidate& c) {
@@ -117,6 +129,7 @@ LinearisedSweep linearise(const PlaneSweep& sweep, const Stations& stations, con
     const Vector3 p = T_world_station.R.transpose() * from_m;
     if (!(p.z() > kNearest_m)) continue;
     nearest_m = std::min(nearest_m, p.norm());
+    c.from_behind = is_from_behind(*sensor, from_m, state);
     c.gradient = T_world_station.R * ideal_gradient(station.generation, sweep.plane, p);
     c.residual_rad = hit.angle_rad - raw_angle(station, sweep.plane, p);
     // A station that is turned sees the body turned: its sensors are shifted against each other.
@@ -130,6 +143,9 @@ LinearisedSweep linearise(const PlaneSweep& sweep, const Stations& stations, con
     hits = nearest_to(0.0, candidates);
     out.sensors = static_cast<int>(hits.size());
     if (candidates.size() > hits.size()) hits = nearest_to(median_of(hits), candidates);
+    for (std::size_t i = hits.size(); i-- > 0;) {
+      if (hits[i].from_behind) hits.erase_unordered(i);
+    }
     gate(hits, state.covariance.topLeftCorner<6, 6>());
   }
   const auto count = static_cast<Eigen::Index>(hits.size());

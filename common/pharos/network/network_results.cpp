@@ -38,9 +38,7 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   const NetworkState& state = filter_.mean();
   const Vector3& position_m = fix_->position_m;
   out.pose = WorldFromBody{state.pose.R, position_m};
-  out.covariance.topLeftCorner<3, 3>() = state.covariance.topLeftCorner<3, 3>();
-  const double off_rad = attitude_suspect() ? kSuspect_rad : doubt_rad;
-  out.covariance.diagonal().head<3>().array() += off_rad * off_rad;
+  out.covariance.topLeftCorner<3, 3>() = attitude_covariance(doubt_rad);
   out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->doubted_covariance();
   if (!fix_->sound) out.covariance.bottomRightCorner<3, 3>() += contradiction_covariance(out.time_s);
   out.flags = kFused;
@@ -56,6 +54,14 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
     out.pose = pose::Refusal::kTooUncertain;
   }
   return out;
+}
+
+// The filter's, off by `off_rad` more, or by what is suspected.
+Matrix3 NetworkTracker::attitude_covariance(double off_rad) const {
+  const NetworkState& state = filter_.mean();
+  const double more_rad = attitude_suspect() ? kSuspect_rad : off_rad;
+  return state.covariance.topLeftCorner<3, 3>() + more_rad * more_rad * Matrix3::Identity() +
+         state.pose.R * placement_covariance_ * state.pose.R.transpose();
 }
 
 double NetworkTracker::bearing_sigma(std::size_t station) const {
@@ -113,7 +119,7 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   out.plane = static_cast<std::uint8_t>(sweep.plane);
   out.observations = sweep.hits();
   out.covariance = state.covariance.topLeftCorner<6, 6>();
-  if (attitude_suspect()) out.covariance.diagonal().head<3>().array() += kSuspect_rad * kSuspect_rad;
+  out.covariance.topLeftCorner<3, 3>() = attitude_covariance(0.0);
   const HitVector left = sweep.residual - sweep.rows.lazyProduct(state.difference(sweep.at).head<kObserved>());
   out.residual_rms_rad = std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
   if (sweep.hits() < sweep.sensors) out.flags |= kOutliers;

@@ -54,12 +54,28 @@ bool holds_a_body(const NetworkState& state) {
          state.covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3).trace() < kLost_m * kLost_m;
 }
 
+// What sensors that are not where they are held to be turn a body by, whatever sees it: the same in every sweep.
+Matrix3 placement_covariance(const Target& target, double sensor_m) {
+  constexpr double kSmallest_m = 1e-3;  // along a line or at a point no turn is seen
+  Vector3 centre_m = Vector3::Zero();
+  for (const SensorPlacement& sensor : target) centre_m += sensor.position_m / static_cast<double>(target.size());
+  Matrix3 inertia = kSmallest_m * kSmallest_m * Matrix3::Identity();
+  for (const SensorPlacement& sensor : target) {
+    const Matrix3 arm = skew(sensor.position_m - centre_m);
+    inertia += arm.transpose() * arm;
+  }
+  return sensor_m * sensor_m * inertia.inverse();
+}
+
 double gate_of(int hits) { return std::max(kMinGate, hits + kGateSigmas * std::sqrt(2.0 * hits)); }
 
 }  // namespace
 
 NetworkTracker::NetworkTracker(const Stations& stations, const Target& target, const NetworkOptions& options)
-    : stations_(stations), target_(target), options_(options) {}
+    : stations_(stations),
+      target_(target),
+      options_(options),
+      placement_covariance_(placement_covariance(target, options.noise.sensor_m)) {}
 
 std::optional<NetworkResult> NetworkTracker::push(std::uint8_t number, std::size_t plane, const Hit& hit) {
   const Station* station = find_station(stations_, number);

@@ -100,6 +100,7 @@ class NetworkTracker {
   void forget_contradictions(const PositionFix& fix);
   double bearing_sigma(std::size_t station) const;  // of what station and plane are wrong by, rad
   void refuse(const LinearisedSweep& sweep);
+  Matrix3 attitude_covariance(double off_rad) const;
   Matrix3 contradiction_covariance(double time_s) const;
   Matrix3 station_covariance(double time_s, const Vector3& body_m) const;
   bool take(const PlaneSweep& sweep, LinearisedSweep& linearised);
@@ -127,6 +128,7 @@ class NetworkTracker {
   Stations stations_;
   Target target_;
   NetworkOptions options_;
+  Matrix3 placement_covariance_;  // of the attitude, body frame
   NetworkFilter filter_;
   NetworkFilter trial_;
   RecentSweeps recent_;

@@ -19,6 +19,27 @@ namespace pharos::calibrate {
 namespace {
 
 constexpr double kLossSigmas = 3.0;
+// Of the cost, relative. Attitudes that light from aside tells are hardly known: the last steps go far for little, and
+// before the optimum the scatter of the pieces is no covariance (scale 3 % where 0.7 % are known).
+constexpr double kConverged = 1e-9;
+constexpr double kGrazing = 0.1;  // cosine of the incidence below which a sensor is hardly lit
+
+// Light from aside meets a sensor elsewhere: in proportion to the tangent of the incidence by its height, which is
+// adjusted, and beyond that by what its cover and its surroundings do, in the tangent's square and as far as its place
+// is unknown anyway. Returns the angle that a metre of that is, rad/m, RMS over the hits.
+double aside_per_m(const network::PlaneSweep& sweep, const Target& target, const network::WorldFromBody& body,
+                   const Vector3& station_m) {
+  const Vector3 from_m = body.inverse() * station_m;
+  double square = 0.0;
+  for (const network::Hit& hit : sweep.hits) {
+    const SensorPlacement* sensor = find_sensor(target, hit.sensor);
+    if (!sensor->has_normal()) continue;
+    const Vector3 ray_m = from_m - sensor->position_m;
+    const double cosine = std::max(kGrazing, sensor->normal.dot(ray_m) / ray_m.norm());
+    square += std::pow((1.0 / (cosine * cosine) - 1.0) / ray_m.norm(), 2);
+  }
+  return std::sqrt(square / static_cast<double>(sweep.hits.size()));
+}
 
 // One adjustment. Ceres keeps the blocks' addresses: not to be moved.
 class Adjustment {
@@ -42,7 +63,7 @@ class Adjustment {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     options.max_num_iterations = options_.max_steps;
-    options.function_tolerance = 1e-7;
+    options.function_tolerance = kConverged;
     options.logging_type = ceres::SILENT;
     options.num_threads = 1;  // identical results in every run
     ceres::Solver::Summary summary;
@@ -144,7 +165,11 @@ class Adjustment {
   void add_sweep(const UsedSweep& used) {
     const network::PlaneSweep& sweep = used.sweep;
     BodySpline& motion = at_.motion[used.motion];
-    const SweepRows rows = sweep_rows(sweep, at_.stations[sweep.station], motion, noise_[sweep.station][sweep.plane]);
+    const network::Station& station = at_.stations[sweep.station];
+    PlaneNoise noise = noise_[sweep.station][sweep.plane];
+    const auto body = motion.pose(sweep.hits[0].time_s);
+    noise.apart_rad = options_.sensor_sigma_m * aside_per_m(sweep, at_.target, body, station.T_world_station->t);
+    const SweepRows rows = sweep_rows(sweep, station, motion, noise);
     std::vector<double*> blocks;
     for (std::size_t k = 0; k < 4; ++k) blocks.push_back(motion.position[rows.first_control + k].data());
     for (std::size_t k = 0; k < 4; ++k) blocks.push_back(motion.turn[rows.first_control + k].data());

@@ -25,7 +25,7 @@ struct JerkDensity {
 struct StationBundleOptions {
   double sensor_sigma_m = 0.2e-3;  // where light meets each sensor, 1 sigma of each coordinate
   JerkDensity jerk;
-  int max_steps = 60;
+  int max_steps = 150;
 };
 
 /// Noise by station and plane.

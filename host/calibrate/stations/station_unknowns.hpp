@@ -31,6 +31,7 @@ PlaneFields prior_sigmas(network::Generation generation, const PlaneFields& at);
 struct PlaneNoise {
   double own_rad = 40e-6;     // of each hit alone
   double common_rad = 60e-6;  // the same for all hits of a sweep
+  double apart_rad = 0.0;     // of each hit against the sweep's mean, beside its own
 };
 
 /// The unknowns of an adjustment of stations.

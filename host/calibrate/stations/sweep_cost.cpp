@@ -34,10 +34,11 @@ class SweepCost final : public ceres::CostFunction {
     sizes.push_back(6);
     sizes.push_back(static_cast<int>(kPlaneFields));
     sizes.insert(sizes.end(), n, 3);
-    const double own = rows_.noise.own_rad, common = rows_.noise.common_rad;
-    const double all = std::sqrt(own * own + static_cast<double>(n) * common * common);
-    own_ = 1.0 / own;
-    shared_ = (1.0 / own - 1.0 / all) / static_cast<double>(n);
+    const PlaneNoise& noise = rows_.noise;
+    const double apart = std::hypot(noise.own_rad, noise.apart_rad);
+    const double all = std::hypot(noise.own_rad, std::sqrt(static_cast<double>(n)) * noise.common_rad);
+    apart_ = 1.0 / apart;
+    shared_ = (1.0 / apart - 1.0 / all) / static_cast<double>(n);
   }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
@@ -129,19 +130,19 @@ class SweepCost final : public ceres::CostFunction {
     }
   }
 
-  // own^2 I + common^2 1 1^T = S: S^(-1/2) x = x / own - shared sum(x).
+  // apart^2 (I - 1 1^T / n) + (own^2 / n + common^2) 1 1^T = S: S^(-1/2) x = x / apart - shared sum(x).
   void whiten(double* rows, std::size_t n, std::size_t columns) const {
     for (std::size_t c = 0; c < columns; ++c) {
       double sum = 0.0;
       for (std::size_t i = 0; i < n; ++i) sum += rows[i * columns + c];
       for (std::size_t i = 0; i < n; ++i) {
-        rows[i * columns + c] = own_ * rows[i * columns + c] - shared_ * sum;
+        rows[i * columns + c] = apart_ * rows[i * columns + c] - shared_ * sum;
       }
     }
   }
 
   SweepRows rows_;
-  double own_ = 1.0, shared_ = 0.0;
+  double apart_ = 1.0, shared_ = 0.0;
 };
 
 class JerkCost final : public ceres::CostFunction {

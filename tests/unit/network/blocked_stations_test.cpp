@@ -194,8 +194,8 @@ TEST(BlockedStations, AreBelievedAtOnceWhenTheyComeBack) {
   EXPECT_GT(seen.epochs, 700);
   EXPECT_GE(seen.answered, seen.epochs - 3);
   EXPECT_GT(seen.ok, 12000);
-  EXPECT_LE(seen.beyond_position, 10);  // 16 before
-  EXPECT_LE(seen.beyond_attitude, seen.ok / 100);
+  EXPECT_LE(seen.beyond_position, 10);             // 16 before
+  EXPECT_LE(seen.beyond_attitude, seen.ok / 300);  // 50 while sensors' places were noise
 }
 
 // One plane of hundred shows another place: 87 positions were beyond five sigmas.

@@ -29,6 +29,13 @@ double ideal_angle(Generation generation, std::size_t plane, const Vector3& p) {
   return std::atan2(-p.x(), p.z()) + std::asin(-p.y() * tangent / std::hypot(p.x(), p.z()));
 }
 
+// Where light from the direction `ray` (body frame) meets a sensor of a target in the plane z = 0.
+Vector3 met_at(const Vector3& sensor_m, const Vector3& ray, double stretch) {
+  const Vector3 across(ray.x(), ray.y(), 0.0);
+  const double square = across.squaredNorm();
+  return square < 1e-12 ? sensor_m : Vector3(sensor_m + stretch / (ray.z() * ray.z()) * across.dot(sensor_m) * across);
+}
+
 }  // namespace
 
 WorldFromBody SimulatedRoom::body_at(double t, double moving) {
@@ -49,7 +56,9 @@ NetworkLog SimulatedRoom::record(double seconds, double moving, std::uint32_t se
     for (const SensorPlacement& sensor : target) {
       const double time_s = k * kSweep_s + 0.002 + 1e-5 * sensor.sensor;
       const WorldFromStation& T = *truth[station].T_world_station;
-      const Vector3 p = T.R.transpose() * (body_at(time_s, moving) * sensor.position_m - T.t);
+      const WorldFromBody body = body_at(time_s, moving);
+      const Vector3 met_m = met_at(sensor.position_m, body.inverse() * T.t, stretch_from_aside);
+      const Vector3 p = T.R.transpose() * (body * met_m - T.t);
       const double angle =
           ideal_angle(generation, plane, p) - truth[station].plane[plane].phase_rad + common + kOwn_rad * gauss(random);
       log.hits.push_back({truth[station].number, plane, {time_s, sensor.sensor, angle}});

@@ -13,6 +13,8 @@ struct SimulatedRoom {
   network::Generation generation = network::Generation::kLighthouse1;
   network::Stations truth;  // with the true phases
   Target target;
+  /// How light from aside makes a flat target look larger along its direction: by this times the squared tangent.
+  double stretch_from_aside = 0.0;
 
   /// Hits from `begin_s` on; `moving`: how much of the motion, 1 = all of it, 0 = at rest.
   NetworkLog record(double seconds, double moving, std::uint32_t seed) const;
