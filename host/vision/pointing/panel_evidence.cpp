@@ -29,10 +29,6 @@ bool is_beyond(const Segment& edge, const Segment& own) {
 
 }  // namespace
 
-Vector3 ray_of(const Vector2& place_px, const PinholeCamera& camera) {
-  return {(place_px.x() - camera.cx_px) / camera.fx_px, (place_px.y() - camera.cy_px) / camera.fy_px, 1.0};
-}
-
 bool PanelEvidence::is_confirmed(const PanelHypothesis& h) const {
   if (h.axis.sigma_rad() > kUnsureSigma_rad) return true;
   if (is_interrupted(h)) return false;

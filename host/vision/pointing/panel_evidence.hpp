@@ -34,7 +34,4 @@ class PanelEvidence {
   const std::vector<Segment>& outline_;
 };
 
-/// Direction of a place in the ideal image, frame C, z = 1.
-Vector3 ray_of(const Vector2& place_px, const PinholeCamera& camera);
-
 }  // namespace pharos::pointing
