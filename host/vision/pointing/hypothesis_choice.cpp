@@ -119,6 +119,7 @@ class Chooser {
     if (other.score < min_length) return false;
     // An axis that is hardly known agrees with any other in the plane of its edges, which is known.
     if (other.axis.sigma_rad() > kUnsureSigma_rad) return !lies_in(other.measurement.long_planes, best.axis);
+    if (best.axis.sigma_rad() > kUnsureSigma_rad) return !lies_in(best.measurement.long_planes, other.axis);
     const double sigma = std::hypot(best.axis.sigma_rad(), other.axis.sigma_rad());
     return angle_of(best.axis.axis, other.axis.axis) > std::max(kOtherAxis_rad, kMaxSigmas * sigma);
   }

@@ -18,6 +18,8 @@ constexpr double kOneLine_px = 1.0;  // what a wing's hinges and lens leave of o
 // Pieces of one edge that are nearer were joined; a body between a wing's panels is wider.
 constexpr double kMinGap_px = 10.0;
 constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
+// Of the target's pixels that a lone panel of a hardly known axis must cover: booms cover 3 to 9 % of them.
+constexpr double kMinFractionOfTarget = 0.2;
 
 double line_slack_px(const Segment& own) { return kThirdEdgeReach_px + kThirdEdgeOff * own.length(); }
 
@@ -30,9 +32,16 @@ bool is_beyond(const Segment& edge, const Segment& own) {
 }  // namespace
 
 bool PanelEvidence::is_confirmed(const PanelHypothesis& h) const {
-  if (h.axis.sigma_rad() > kUnsureSigma_rad) return true;
+  if (h.axis.sigma_rad() > kUnsureSigma_rad) return h.is_wing() || is_much_of_target(h);
   if (is_interrupted(h)) return false;
   return is_in_line(h) || (corners_close(h) && (has_square_ends(h) || is_end_of_plane(h)));
+}
+
+// A boom is a pair of edges as well, so narrow that perspective tells nothing of its axis.
+bool PanelEvidence::is_much_of_target(const PanelHypothesis& h) const {
+  const auto pixels = std::count(target_.mask.begin(), target_.mask.end(), std::uint8_t{1});
+  const EdgePair& pair = h.pairs.front();
+  return pair.middle.length() * pair.separation > kMinFractionOfTarget * static_cast<double>(pixels);
 }
 
 // A plane region with one end. That end tests nothing by itself: a direction square to the axis lies in any plane.

@@ -16,13 +16,14 @@ class PanelEvidence {
       : image_(image), target_(target), camera_(camera), outline_(outline) {}
 
   /// By a second panel on the axis or a third edge along it, by two ends square to it, or by one and a plane region.
-  /// An axis that perspective hardly tells needs nothing.
+  /// Where perspective hardly tells the axis: by a second panel, or by how much of the target it covers.
   bool is_confirmed(const PanelHypothesis& h) const;
 
   /// Two panels on one axis, or one and an edge of another.
   bool is_in_line(const PanelHypothesis& h) const;
 
  private:
+  bool is_much_of_target(const PanelHypothesis& h) const;
   bool is_end_of_plane(const PanelHypothesis& h) const;
   bool is_interrupted(const PanelHypothesis& h) const;
   bool is_third(const PanelHypothesis& h, const Segment& edge) const;

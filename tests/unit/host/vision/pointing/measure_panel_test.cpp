@@ -279,6 +279,20 @@ TEST(MeasurePanelRefuses, ABoom) {
 }
 
 // A dark frame bends the rise; the level beyond the edge is the sky's all the same.
+// So narrow that perspective tells nothing of its axis: that it is long and straight confirms it as little.
+TEST(MeasurePanelRefuses, ABoomBesideABody) {
+  PaintedPanel boom;
+  boom.range_m = 20e3;
+  boom.camera.fx_px = boom.camera.fy_px = 600e3;
+  boom.width_m = 0.25;  // 7.5 px
+  boom.length_m = 6.7;
+  boom.set_axis(0.4, 0.1);
+  host::GreyImage image = boom.image();
+  EXPECT_TRUE(measure_panel(image.view(), boom.camera).ok());  // alone it may be a panel far away
+  paint_disc({390.0, 330.0}, 60.0, image);
+  EXPECT_EQ(refusal_of(image, boom.camera), PointingRefusal::kNoPanel);
+}
+
 TEST(MeasurePanel, AFramedPanelHasSkyBeyondItsSides) {
   PaintedPanel framed = near_panel(0.95);
   framed.rim_m = 0.12;
