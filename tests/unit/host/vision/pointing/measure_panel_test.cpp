@@ -136,7 +136,8 @@ TEST(MeasurePanelRefuses, EdgesThatAreNoRectangleInSpace) {
 }
 
 // A face of a body: beyond one of its sides is another face, in the dark but not as dark as the sky.
-TEST(MeasurePanelRefuses, AFaceWithAnotherOneBesideIt) {
+// The face beside it is as bright as `light` of its contrast, and `deep_px` deep.
+PointingRefusal refusal_beside_a_face(double light, double deep_px) {
   const PaintedPanel scene = near_panel(0.95);
   host::GreyImage image = scene.image();
   const Vector2 across(-std::sin(0.4), std::cos(0.4));
@@ -144,10 +145,19 @@ TEST(MeasurePanelRefuses, AFaceWithAnotherOneBesideIt) {
     for (int u = 0; u < image.width_px; ++u) {
       auto& pixel = image.pixels[static_cast<std::size_t>(v) * 512 + static_cast<std::size_t>(u)];
       const double off = across.dot(Vector2(u - 255.5, v - 255.5));
-      if (off > 0.0 && off < 160.0) pixel = static_cast<std::uint16_t>(pixel + 0.04 * (24600.0 - pixel));
+      if (off > 0.0 && off < deep_px) pixel = static_cast<std::uint16_t>(pixel + light * (24600.0 - pixel));
     }
   }
-  EXPECT_EQ(refusal_of(image, scene.camera), PointingRefusal::kNoPanel);
+  return refusal_of(image, scene.camera);
+}
+
+TEST(MeasurePanelRefuses, AFaceWithAnotherOneBesideIt) {
+  EXPECT_EQ(refusal_beside_a_face(0.04, 160.0), PointingRefusal::kNoPanel);
+}
+
+// What optics scatter beside an edge may be as bright, but behind both edges alike.
+TEST(MeasurePanelRefuses, AFaceWithAFarDarkerOneBesideIt) {
+  EXPECT_EQ(refusal_beside_a_face(0.01, 160.0), PointingRefusal::kNoPanel);
 }
 
 // Brighter of both at each pixel.
