@@ -40,8 +40,9 @@ TEST(IntegritySeeds, Ellipses) {
 }
 
 // A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster or
-// a cover for a connector behind a boom; a small ring, of which depth alone tells the size, for a described connector.
-TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061, 123135, 202518}); }
+// a cover for a connector behind a boom; a small ring, of which depth alone tells the size, for a described connector,
+// and one of three thrusters.
+TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061, 123135, 202518, 460234}); }
 
 // The foot of a ring, the edge of a round body, whose nozzle the ring was taken for, a small ring beside it, a groove;
 // two bodies with a second ring; a groove behind a ring that a boom crosses.
