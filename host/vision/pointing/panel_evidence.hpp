@@ -26,6 +26,7 @@ class PanelEvidence {
   bool is_much_of_target(const PanelHypothesis& h) const;
   bool is_end_of_plane(const PanelHypothesis& h) const;
   bool is_interrupted(const PanelHypothesis& h) const;
+  bool goes_on_between(const Segment& one, const Segment& other) const;
   bool is_third(const PanelHypothesis& h, const Segment& edge) const;
   bool is_in_line_with_a_side(const PanelHypothesis& h, const LineFit& edge) const;
 
