@@ -216,6 +216,12 @@ void find_arcs(const Contours& contours, EllipseWorkspace& workspace) {
       cutter.cut(begin, std::min(contour.end, begin + kMaxPolygonPoints));
     }
   }
+  for (std::size_t k = 0; k < workspace.arcs.size(); ++k) {
+    const Arc& arc = workspace.arcs[k];
+    workspace.bounds.u_px[k] = arc.about.u;
+    workspace.bounds.v_px[k] = arc.about.v;
+    workspace.bounds.radius_px[k] = arc.radius_px;
+  }
   workspace.counters.arcs = static_cast<std::uint32_t>(workspace.arcs.size());
 }
 

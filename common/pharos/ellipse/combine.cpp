@@ -99,7 +99,7 @@ class Combiner {
     }
     if (best.score < settings_.min_score) return;
     add_to_clusters(best, workspace_);
-    mark_explained(best);
+    mark_arcs_on(best.ellipse, best.bright_inside, kGate_px, kExplained, workspace_, explained_);
   }
 
   // The fit to one arc or two, kept among the best. An arc may continue past its ellipse at its ends (a rounded
@@ -187,14 +187,6 @@ class Combiner {
   std::optional<RefinedFit> refit(const Ellipse& ellipse) {
     return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()),
                       support_.independent());
-  }
-
-  void mark_explained(const DetectedEllipse& e) {
-    for (std::size_t k = 0; k < arcs().size(); ++k) {
-      if (explained_[k]) continue;
-      const std::uint32_t on = points_on(e.ellipse, e.bright_inside, kGate_px, arcs()[k], workspace_);
-      explained_[k] = on >= kExplained * arcs()[k].points();
-    }
   }
 
   const EllipseSettings& settings_;

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <bit>
 #include <cmath>
 
 namespace pharos::ellipse {
@@ -20,20 +21,27 @@ struct Frame {
   double u = 0.0, v = 0.0, scale = 1.0;
 };
 
-Frame frame_of(std::span<const PointF> points) {
+// Quotients by a count; for a power of two, as all samples of one arc or two are, by its exact inverse.
+template <class Quotient>
+Frame frame_of(std::span<const PointF> points, Quotient over_count) {
   Frame frame;
-  const double n = static_cast<double>(points.size());
   for (const PointF& p : points) {
-    frame.u += static_cast<double>(p.u) / n;
-    frame.v += static_cast<double>(p.v) / n;
+    frame.u += over_count(static_cast<double>(p.u));
+    frame.v += over_count(static_cast<double>(p.v));
   }
   double squared = 0.0;
   for (const PointF& p : points) {
     const double u = static_cast<double>(p.u) - frame.u, v = static_cast<double>(p.v) - frame.v;
-    squared += (u * u + v * v) / n;
+    squared += over_count(u * u + v * v);
   }
   frame.scale = std::sqrt(squared);
   return frame;
+}
+
+Frame frame_of(std::span<const PointF> points) {
+  const double count = static_cast<double>(points.size()), inverse = 1.0 / count;
+  if (std::has_single_bit(points.size())) return frame_of(points, [inverse](double sum) { return sum * inverse; });
+  return frame_of(points, [count](double sum) { return sum / count; });
 }
 
 // Sums of products of (x^2, x y, y^2) and (x, y, 1); each different one once.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace pharos::ellipse {
 namespace {
@@ -76,6 +77,20 @@ bool any_above(const std::uint16_t* values, std::uint16_t low) {
   return above != 0;
 }
 
+// Calls take(number) for those of a block that are marked; four at once are skipped where none is.
+template <class Take>
+void for_marked(const Block& marks, Take&& take) {
+  constexpr std::size_t kTogether = sizeof(std::uint64_t) / sizeof(Block::value_type);
+  for (std::size_t first = 0; first < marks.size(); first += kTogether) {
+    std::uint64_t together = 0;
+    std::memcpy(&together, marks.data() + first, sizeof(together));
+    if (together == 0) continue;
+    for (std::size_t k = first; k < first + kTogether; ++k) {
+      if (marks[k] != 0) take(static_cast<std::int32_t>(k));
+    }
+  }
+}
+
 // The edge point at a pixel whose magnitude is above the threshold, if it is the greatest along its gradient.
 bool edge_at(ImageView<const std::uint16_t> smoothed, ImageView<const std::uint16_t> magnitude, std::int32_t u,
              std::int32_t v, EdgePoint& point) {
@@ -113,16 +128,15 @@ void find_edges(ImageView<const std::uint16_t> smoothed, ImageView<const std::ui
       } else {
         std::transform(row + block, row + end, marks.begin(), [low](std::uint16_t m) { return m > low ? 1 : 0; });
       }
-      for (std::int32_t u = block; u < end; ++u) {
+      for_marked(marks, [&](std::int32_t k) {
         EdgePoint point;
-        if (marks[static_cast<std::size_t>(u - block)] == 0) continue;
-        if (!edge_at(smoothed, magnitude, u, v, point)) continue;
+        if (!edge_at(smoothed, magnitude, block + k, v, point)) return;
         if (workspace.edges.push_back(point)) {
-          place[u] = static_cast<std::uint16_t>(workspace.edges.size());
+          place[block + k] = static_cast<std::uint16_t>(workspace.edges.size());
         } else {
           ++workspace.counters.edge_points_dropped;
         }
-      }
+      });
     }
   }
   workspace.counters.edge_points = static_cast<std::uint32_t>(workspace.edges.size());

@@ -19,12 +19,36 @@ constexpr double kMedianToSigma = 1.4826;
 // Lower limit of an edge's sigma, even if few points agree by chance.
 constexpr double kMinSigma_px = 0.02;
 
+// The element that std::nth_element would put at `rank`. Most are told from it by a histogram, without a branch that
+// depends on them.
+float element_of_rank(std::span<float> values, std::size_t rank) {
+  constexpr std::size_t kBins = 64;
+  const float largest = *std::max_element(values.begin(), values.end());
+  if (!(largest > 0.0F) || !std::isfinite(largest)) return largest;
+  const float per_bin = (kBins - 1.0F) / largest;
+  std::array<std::uint8_t, kMaxFitPoints> bins;
+  std::array<std::uint16_t, kBins> counts{};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    bins[k] = static_cast<std::uint8_t>(std::min(kBins - 1.0F, values[k] * per_bin));
+    ++counts[bins[k]];
+  }
+  std::size_t bin = 0, below = 0;
+  while (below + counts[bin] <= rank) below += counts[bin++];
+  std::size_t inside = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[inside] = values[k];
+    inside += bins[k] == bin ? 1U : 0U;
+  }
+  const auto wanted = values.begin() + static_cast<std::ptrdiff_t>(rank - below);
+  std::nth_element(values.begin(), wanted, values.begin() + static_cast<std::ptrdiff_t>(inside));
+  return *wanted;
+}
+
 double scatter_of(const ContourDistances::Column& distances, std::size_t count) {
   std::array<float, kMaxFitPoints> sizes;
   for (std::size_t k = 0; k < count; ++k) sizes[k] = static_cast<float>(std::abs(distances[k]));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(kMinSigma_px, kMedianToSigma * static_cast<double>(*middle));
+  const float middle = element_of_rank(std::span(sizes.data(), count), count / 2);
+  return std::max(kMinSigma_px, kMedianToSigma * static_cast<double>(middle));
 }
 
 // Lower triangles only.

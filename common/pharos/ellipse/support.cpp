@@ -48,7 +48,8 @@ class Contact {
     const PointF q = scaled(about);
     const float size = std::sqrt(q.u * q.u + q.v * q.v);
     const float reach = radius_px * over_b_ + kRounding * (1.0F + size);
-    return size - reach <= max_size_ && size + reach >= min_size_;
+    const bool inside = size - reach <= max_size_, outside = size + reach >= min_size_;
+    return inside & outside;  // without a branch
   }
   // False for most points, without a root or a branch.
   bool may_touch(PointF p) const {
@@ -80,8 +81,27 @@ class Contact {
 // Points processed together, as many as an arc has samples.
 using Together = std::array<std::uint32_t, kArcSamples>;
 
+// Calls take(number) for the arcs whose circles the contour may touch.
+template <class Take>
+void for_arcs_near(const Contact& contact, const EllipseWorkspace& workspace, Take&& take) {
+  const ArcBounds& bounds = workspace.bounds;
+  for (std::size_t begin = 0; begin < workspace.arcs.size(); begin += kArcSamples) {
+    Together near;
+    std::uint32_t any = 0;
+    for (std::size_t k = 0; k < kArcSamples; ++k) {
+      const std::size_t arc = begin + k;
+      near[k] = contact.may_touch_within({bounds.u_px[arc], bounds.v_px[arc]}, bounds.radius_px[arc]) ? 1 : 0;
+      any |= near[k];
+    }
+    if (any == 0) continue;
+    const std::size_t count = std::min<std::size_t>(kArcSamples, workspace.arcs.size() - begin);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (near[k] != 0) take(begin + k);
+    }
+  }
+}
+
 bool may_touch(const Contact& contact, const Arc& arc) {
-  if (!contact.may_touch_within(arc.about, arc.radius_px)) return false;
   Together near;
   for (std::size_t k = 0; k < kArcSamples; ++k) near[k] = contact.may_touch(arc.samples[k]) ? 1 : 0;
   float distance = 0.0F;
@@ -131,11 +151,11 @@ void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px,
   Sectors sectors(ellipse, workspace.width_px, workspace.height_px);
   StaticVector<std::uint16_t, kMaxArcs> touching;
   std::uint32_t possible = 0;
-  for (std::size_t k = 0; k < workspace.arcs.size(); ++k) {
-    if (!may_touch(contact, workspace.arcs[k])) continue;
+  for_arcs_near(contact, workspace, [&](std::size_t k) {
+    if (!may_touch(contact, workspace.arcs[k])) return;
     touching.push_back(static_cast<std::uint16_t>(k));
     possible += workspace.arcs[k].points();
-  }
+  });
   support.stride = 1 + possible / static_cast<std::uint32_t>(kMaxFitPoints);
   double squares = 0.0, fourth_powers = 0.0;
   for (const std::uint16_t k : touching) {
@@ -169,11 +189,15 @@ void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px,
   if (fractions.length < 1.0) support.beside_gaps = sectors.beside_gaps(sectors.count() < 24 ? 1 : 2);
 }
 
-std::uint32_t points_on(const Ellipse& ellipse, bool bright_inside, double gate_px, const Arc& arc,
-                        const EllipseWorkspace& workspace) {
+void mark_arcs_on(const Ellipse& ellipse, bool bright_inside, double gate_px, double fraction,
+                  const EllipseWorkspace& workspace, std::span<bool> marked) {
   const Contact contact(ellipse, bright_inside, gate_px);
-  if (!contact.may_touch_within(arc.about, arc.radius_px)) return 0;
-  return for_points_on(contact, arc, workspace, [](PointF, float, float) {});
+  for_arcs_near(contact, workspace, [&](std::size_t k) {
+    if (marked[k]) return;
+    const Arc& arc = workspace.arcs[k];
+    const std::uint32_t on = for_points_on(contact, arc, workspace, [](PointF, float, float) {});
+    marked[k] = on >= fraction * arc.points();
+  });
 }
 
 }  // namespace pharos::ellipse

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "pharos/base/static_vector.hpp"
 #include "pharos/ellipse/refine_fit.hpp"
@@ -48,8 +49,8 @@ struct Support {
 void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px, const EllipseWorkspace& workspace,
                      Support& support);
 
-/// Points of one arc that collect_support would take.
-std::uint32_t points_on(const Ellipse& ellipse, bool bright_inside, double gate_px, const Arc& arc,
-                        const EllipseWorkspace& workspace);
+/// Marks the arcs of which at least `fraction` lies on the contour, by the rule of collect_support; marks stay.
+void mark_arcs_on(const Ellipse& ellipse, bool bright_inside, double gate_px, double fraction,
+                  const EllipseWorkspace& workspace, std::span<bool> marked);
 
 }  // namespace pharos::ellipse

@@ -42,6 +42,11 @@ struct EllipseCounters {
   std::uint32_t ellipses_dropped = 0;
 };
 
+/// Circles around the arcs, side by side: which arcs may touch a contour is asked for several at once.
+struct ArcBounds {
+  std::array<float, kMaxArcs> u_px{}, v_px{}, radius_px{};
+};
+
 /// All memory of the detection except the stack; the caller owns both parts.
 struct EllipseWorkspace {
   /// `planes` holds kPlanes * width * height values of the largest image expected.
@@ -57,6 +62,7 @@ struct EllipseWorkspace {
   StaticVector<EdgePoint, kMaxEdgePoints> ordered;  ///< along contours; arcs are ranges of it
   std::array<std::uint16_t, kMaxEdgePoints> order{};
   StaticVector<Arc, kMaxArcs> arcs;
+  ArcBounds bounds;  ///< of `arcs`, by find_arcs
   StaticVector<DetectedEllipse, kMaxEllipses> found;
 };
 

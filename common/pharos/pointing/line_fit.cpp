@@ -10,8 +10,10 @@ namespace {
 constexpr int kFitRounds = 6;
 constexpr std::size_t kMaxLags = 24;
 constexpr std::size_t kPointsPerLag = 10;
+constexpr double kBartlettVariance = 4.0 / 3.0;  // of the estimate for independent errors, times points over lags
 // Mean absolute deviation to standard deviation, of a normal distribution.
 constexpr double kSigmaPerMeanDeviation = 1.2533141373155003;
+constexpr double kMinInflation = 0.5;
 
 struct Straight {
   Vector2 centre = Vector2::Zero();
@@ -51,7 +53,9 @@ Straight straight_through(std::span<const EdgePoint> points, Used used) {
 }
 
 // Integrated correlation of the residuals along the line, lags weighted down to the longest (Bartlett): negative ones
-// count too, as errors that alternate along an edge average out.
+// count too, as errors that alternate along an edge average out. A grid of pixels or of a renderer's rays makes most of
+// them: the edge crosses it at a phase that repeats. Below 1 by the estimate's own sigma (that of independent errors)
+// it may be chance.
 template <class Used>
 double variance_inflation(std::span<const EdgePoint> points, const Straight& straight, Used used) {
   const auto residual = [&](const EdgePoint& p) { return used(p) ? straight.offset(p.place_px) / p.sigma_px : 0.0; };
@@ -65,7 +69,8 @@ double variance_inflation(std::span<const EdgePoint> points, const Straight& str
     for (std::size_t i = lag; i < points.size(); ++i) product += residual(points[i]) * residual(points[i - lag]);
     sum += 2.0 * (1.0 - static_cast<double>(lag) / static_cast<double>(lags + 1)) * product / square;
   }
-  return std::max(1.0, sum);
+  const double chance = std::sqrt(kBartlettVariance * static_cast<double>(lags) / static_cast<double>(points.size()));
+  return std::max({kMinInflation, sum, std::min(1.0, sum + chance)});
 }
 
 LineFit fit_of(const Straight& straight, double variance) {

@@ -39,7 +39,7 @@ struct LineFit {
   ImageLine line;
   double rms_px = 0.0;  ///< of the points used, across the line
   /// Number of neighbouring points with the same error (1: independent): points a pixel apart share pixels, and a lens'
-  /// or a renderer's errors run along the edge. The covariance is larger by this.
+  /// or a renderer's errors run along the edge. Below 1 (to 0.5) errors alternate. The covariance is larger by this.
   double variance_inflation = 1.0;
   std::size_t points = 0;              ///< used
   Vector2 begin_px = Vector2::Zero();  /// first and last of the used points, on the line

@@ -137,17 +137,37 @@ class TurnFinder {
     return place.norm() < ring_.model.radius_m[0] ? workspace_.base_m : workspace_.outer_base_m;
   }
 
+  static Vector2 turned(const Vector2& place_m, double turn) {
+    const double c = std::cos(turn), s = std::sin(turn);
+    return {c * place_m.x() - s * place_m.y(), s * place_m.x() + c * place_m.y()};
+  }
+  // Whether something of a described connector's size and height stands where, by this turn, none is described.
+  bool leaves_look_alikes(double turn) const {
+    return std::any_of(faces_.begin(), faces_.end(), [&](const ConnectorFace& face) {
+      bool alike = false, explained = false;
+      for (const DescribedConnector& one : target_.connectors) {
+        if (!could_be(face, one)) continue;
+        alike = true;
+        const double off_m = (face.rectangle.centre_m - turned(one.place_m, turn)).norm();
+        explained = explained || off_m <= 2.0 * gate_m(face, one);
+      }
+      return alike && !explained;
+    });
+  }
+
   // Of a turn, all described connectors together.
   double log_odds(double turn) const {
-    const double c = std::cos(turn), s = std::sin(turn);
-    double sum = 0.0;
+    double in_favour = 0.0, against = 0.0, by_depth = 0.0;
     for (const DescribedConnector& described : target_.connectors) {
-      const Vector2 place(c * described.place_m.x() - s * described.place_m.y(),
-                          s * described.place_m.x() + c * described.place_m.y());
+      const Vector2 place = turned(described.place_m, turn);
       const double standing = standing_at(place, described);
-      sum += standing > 0.0 ? standing : std::clamp(evidence_at(place, described), -kMaxAgainst, 0.0);
+      in_favour += standing;
+      by_depth += std::min(standing, kMaxForByDepth);
+      if (!(standing > 0.0)) against += std::clamp(evidence_at(place, described), -kMaxAgainst, 0.0);
     }
-    return sum;
+    // Where a connector is absent in plain sight and another look-alike stands elsewhere, what agrees is one as well.
+    const bool is_doubtful = against < -kMinLogOdds && leaves_look_alikes(turn);
+    return (is_doubtful ? by_depth : in_favour) + against;
   }
   // What the connector seen there says for the turn; 0 where none is.
   double standing_at(const Vector2& place, const DescribedConnector& described) const {

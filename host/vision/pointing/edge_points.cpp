@@ -29,6 +29,9 @@ constexpr int kMaxMisses = 3;       // in a row: an edge ends there
 constexpr double kHalfNoise = 0.5;
 constexpr double kCornerSigmas = 3.0;
 constexpr double kDarkSigmas = 2.7;  // of blur: from here on a Gaussian rise adds less than 0.4 % of its height
+constexpr double kBehind_px = 6.0;   // beyond a profile's reach: wider than the side of a panel
+constexpr double kMedianToSigma = 1.4826;
+constexpr double kMinScatter = 0.3;  // of a pixel's noise, of a profile's mean beyond the rise
 constexpr double kBorder_px = 3.0;
 // 2 sqrt(pi): of a Gaussian rise of unit contrast, blur over the integral of the squared slope.
 constexpr double kShiftOfExcess = 3.5449077;
@@ -83,6 +86,18 @@ double dark_beyond(const Profile& profile, const Rise& rise, double blur) {
     ++count;
   }
   return count == 0 ? rise.dark : sum / count;
+}
+
+// The mean level of the pixels that lie farther out than a profile reaches.
+std::optional<double> level_behind(const Profile& wide, const Rise& rise, double reach_px) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < wide.size; ++i) {
+    if (wide.position[i] > rise.place - reach_px) continue;
+    sum += wide.value[i];
+    ++count;
+  }
+  return count == 0 ? std::nullopt : std::optional(sum / count);
 }
 
 // Steps along the line by one row or column, whichever is closer to perpendicular.
@@ -176,6 +191,22 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+// Mean of an edge's levels, stars and what else stands out of them left out. A median would be that of whole counts.
+std::optional<Backdrop> backdrop_of(const std::vector<double>& levels, double noise) {
+  if (levels.empty()) return std::nullopt;
+  const double middle = median(levels);
+  std::vector<double> deviations;
+  for (const double level : levels) deviations.push_back(std::abs(level - middle));
+  const double scatter = std::max(kMedianToSigma * median(deviations), kMinScatter * noise);
+  double sum = 0.0, count = 0.0;
+  for (const double level : levels) {
+    if (std::abs(level - middle) > kOutlierSigmas * scatter) continue;
+    sum += level;
+    count += 1.0;
+  }
+  return Backdrop{sum / count, scatter / std::sqrt(count)};
 }
 
 // The blur that fits a few dozen of the edge's profiles best, by golden section.
@@ -290,7 +321,7 @@ MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask
              near_border(image, edge.extent.end, kBorder_px + 1.5 * settings.reach_px);
   const double corner = kCornerSigmas * settings.blur + 1.0;
   edge.corner_px = corner;
-  std::vector<double> darks, contrasts;
+  std::vector<double> darks, contrasts, behind;
   std::array<ProfileStack, 2> halves;
   for (const Sample& one : samples_between(scan, target, first, last, settings)) {
     const Vector2 place = scan.place(one.index, one.across);
@@ -302,11 +333,15 @@ MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask
       halves[second ? 1 : 0].add(*profile, one.rise, settings.blur);
       darks.push_back(dark_beyond(*profile, one.rise, settings.blur));
     }
+    if (const auto wide = scan.profile(one.index, settings.reach_px + kBehind_px)) {
+      if (const auto level = level_behind(*wide, one.rise, settings.reach_px)) behind.push_back(*level);
+    }
   }
   const double excess_px = std::max(halves[0].excess_px(), halves[1].excess_px());
   edge.structure_px = std::sqrt(kShiftOfExcess * settings.blur * excess_px);
   if (darks.empty()) return edge;
   edge.contrast = median(contrasts);
+  edge.backdrop = backdrop_of(behind, target.noise);
   edge.backing = (median(darks) - target.sky - kHalfNoise * target.noise) / edge.contrast;
   return edge;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/vision/pointing/segment.hpp"
@@ -8,6 +9,12 @@
 #include "pharos/pointing/line_fit.hpp"
 
 namespace pharos::pointing {
+
+/// What stands behind an edge.
+struct Backdrop {
+  double level = 0.0;
+  double sigma = 0.0;
+};
 
 /// Sub-pixel points of an edge: the position of the rise from sky to target, in every row (or column) that it crosses.
 struct MeasuredEdge {
@@ -18,6 +25,9 @@ struct MeasuredEdge {
   double contrast = 0.0;                    ///< of target over sky, the points' median
   /// How far the dark side is brighter than the sky, of the edge's contrast: another face in the dark, not the sky.
   double backing = 0.0;
+  /// Mean grey level beyond the rise and what stands within 5 px of it (a panel's own thickness), and its sigma; empty
+  /// where the image ends before.
+  std::optional<Backdrop> backdrop;
   /// How far what stands beside the edge all along it (cells, a wall, another part) could shift it: the shift that
   /// would change a profile as much as the edge's mean profile differs from a Gaussian rise, px.
   double structure_px = 0.0;

@@ -54,7 +54,7 @@ class Chooser {
     if (confirmed == hypotheses.end()) return cut_.empty() ? PointingRefusal::kNoPanel : PointingRefusal::kCutByBorder;
     PanelHypothesis& best = *confirmed;
     if (is_along_sight(best)) return PointingRefusal::kAlongSight;
-    if (has_rival_of(cut_, kRivalLength, best)) return PointingRefusal::kCutByBorder;
+    if (has_rival_of(cut_, kRivalLength, best) || is_of_a_longer(cut_, best)) return PointingRefusal::kCutByBorder;
     if (has_rival_of(unsure_, 1.0, best)) return PointingRefusal::kEdgeUnsure;
     add_alternative(hypotheses, best);
     if (!cut_.empty() && !best.is_wing()) best.measurement.flags |= kFlagPanelCut;
@@ -101,6 +101,17 @@ class Chooser {
     });
   }
 
+  // An edge is one panel's: where it faces a longer one that is cut, what it faces besides is something else, a boom.
+  static bool is_of_a_longer(const std::vector<EdgePair>& pairs, const PanelHypothesis& best) {
+    const auto same = [](const Segment& a, const Segment& b) { return a.begin == b.begin && a.end == b.end; };
+    const EdgePair& own = best.pairs.front();
+    return !best.is_wing() && std::any_of(pairs.begin(), pairs.end(), [&](const EdgePair& pair) {
+      return pair.middle.length() > own.middle.length() &&
+             (same(pair.first, own.first) || same(pair.first, own.second) || same(pair.second, own.first) ||
+              same(pair.second, own.second));
+    });
+  }
+
   bool is_along_sight(const PanelHypothesis& h) const {
     if (h.axis.sigma_rad() > kUnsureSigma_rad) return false;
     return angle_of(ray_of(h.pairs.front().middle.middle(), camera_), h.axis.axis) < kMinFromSight_rad;
@@ -119,6 +130,7 @@ class Chooser {
     if (other.score < min_length) return false;
     // An axis that is hardly known agrees with any other in the plane of its edges, which is known.
     if (other.axis.sigma_rad() > kUnsureSigma_rad) return !lies_in(other.measurement.long_planes, best.axis);
+    if (best.axis.sigma_rad() > kUnsureSigma_rad) return !lies_in(best.measurement.long_planes, other.axis);
     const double sigma = std::hypot(best.axis.sigma_rad(), other.axis.sigma_rad());
     return angle_of(best.axis.axis, other.axis.axis) > std::max(kOtherAxis_rad, kMaxSigmas * sigma);
   }

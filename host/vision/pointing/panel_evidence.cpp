@@ -18,6 +18,11 @@ constexpr double kOneLine_px = 1.0;  // what a wing's hinges and lens leave of o
 // Pieces of one edge that are nearer were joined; a body between a wing's panels is wider.
 constexpr double kMinGap_px = 10.0;
 constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
+// From an outline's line, where blur leaves target on one side and sky on the other; sigmas of the sky between them.
+constexpr double kBesideLine_px = 5.0;
+constexpr double kSkySigmas = 5.0;
+// Of the target's pixels that a lone panel of a hardly known axis must cover: booms cover 3 to 9 % of them.
+constexpr double kMinFractionOfTarget = 0.2;
 
 double line_slack_px(const Segment& own) { return kThirdEdgeReach_px + kThirdEdgeOff * own.length(); }
 
@@ -29,14 +34,17 @@ bool is_beyond(const Segment& edge, const Segment& own) {
 
 }  // namespace
 
-Vector3 ray_of(const Vector2& place_px, const PinholeCamera& camera) {
-  return {(place_px.x() - camera.cx_px) / camera.fx_px, (place_px.y() - camera.cy_px) / camera.fy_px, 1.0};
-}
-
 bool PanelEvidence::is_confirmed(const PanelHypothesis& h) const {
-  if (h.axis.sigma_rad() > kUnsureSigma_rad) return true;
+  if (h.axis.sigma_rad() > kUnsureSigma_rad) return h.is_wing() || is_much_of_target(h);
   if (is_interrupted(h)) return false;
   return is_in_line(h) || (corners_close(h) && (has_square_ends(h) || is_end_of_plane(h)));
+}
+
+// A boom is a pair of edges as well, so narrow that perspective tells nothing of its axis.
+bool PanelEvidence::is_much_of_target(const PanelHypothesis& h) const {
+  const auto pixels = std::count(target_.mask.begin(), target_.mask.end(), std::uint8_t{1});
+  const EdgePair& pair = h.pairs.front();
+  return pair.middle.length() * pair.separation > kMinFractionOfTarget * static_cast<double>(pixels);
 }
 
 // A plane region with one end. That end tests nothing by itself: a direction square to the axis lies in any plane.
@@ -52,7 +60,12 @@ bool PanelEvidence::is_in_line(const PanelHypothesis& h) const {
 // A side goes on without a gap or a step, at an angle that kept it from being joined: something stands out of one
 // outline there, as a panel does on its body. Between a wing's panels is a gap, or their body's edge, with steps.
 bool PanelEvidence::is_interrupted(const PanelHypothesis& h) const {
-  if (h.is_wing()) return false;
+  if (h.is_wing()) {
+    const EdgePair &one = h.pairs[0], &other = h.pairs[1];
+    const bool same_way = one.first.along().dot(other.first.along()) > 0.0;
+    return goes_on_between(one.first, same_way ? other.first : other.second) ||
+           goes_on_between(one.second, same_way ? other.second : other.first);
+  }
   const auto goes_on = [&](const Segment& own, const Segment& edge) {
     if (edge.length() < kMinThirdEdge * own.length() || !is_beyond(edge, own)) return false;
     const bool after = own.station(edge.middle()) > own.length();
@@ -62,6 +75,26 @@ bool PanelEvidence::is_interrupted(const PanelHypothesis& h) const {
   };
   return std::any_of(outline_.begin(), outline_.end(),
                      [&](const Segment& edge) { return goes_on(h.sides[0], edge) || goes_on(h.sides[1], edge); });
+}
+
+// Whether the outline follows the line between two edges: target on one side of it, sky on the other, all along. Foil
+// may be too dark there for an edge.
+bool PanelEvidence::goes_on_between(const Segment& one, const Segment& other) const {
+  const bool is_first = one.station(other.middle()) > 0.5 * one.length();
+  const Vector2 from = is_first ? one.end : other.end, to = is_first ? other.begin : one.begin;
+  const Segment gap{from, to};
+  if (gap.length() < kBesideLine_px || gap.along().dot(one.along()) < 0.0) return false;
+  const double limit = target_.sky + kSkySigmas * target_.noise;
+  const auto is_lit = [&](const Vector2& place) {
+    const auto u = std::clamp(static_cast<std::int32_t>(std::lround(place.x())), 0, image_.width_px - 1);
+    const auto v = std::clamp(static_cast<std::int32_t>(std::lround(place.y())), 0, image_.height_px - 1);
+    return image_.at(u, v) > limit;
+  };
+  for (double at = 0.0; at <= gap.length(); at += 1.0) {
+    const Vector2 place = gap.begin + at * gap.along();
+    if (!is_lit(place + kBesideLine_px * gap.across()) || is_lit(place - kBesideLine_px * gap.across())) return false;
+  }
+  return true;
 }
 
 // An edge in line with one of the panel's own that runs along its axis: the other panel's, where that is half hidden.

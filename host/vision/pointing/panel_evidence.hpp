@@ -16,15 +16,17 @@ class PanelEvidence {
       : image_(image), target_(target), camera_(camera), outline_(outline) {}
 
   /// By a second panel on the axis or a third edge along it, by two ends square to it, or by one and a plane region.
-  /// An axis that perspective hardly tells needs nothing.
+  /// Where perspective hardly tells the axis: by a second panel, or by how much of the target it covers.
   bool is_confirmed(const PanelHypothesis& h) const;
 
   /// Two panels on one axis, or one and an edge of another.
   bool is_in_line(const PanelHypothesis& h) const;
 
  private:
+  bool is_much_of_target(const PanelHypothesis& h) const;
   bool is_end_of_plane(const PanelHypothesis& h) const;
   bool is_interrupted(const PanelHypothesis& h) const;
+  bool goes_on_between(const Segment& one, const Segment& other) const;
   bool is_third(const PanelHypothesis& h, const Segment& edge) const;
   bool is_in_line_with_a_side(const PanelHypothesis& h, const LineFit& edge) const;
 
@@ -33,8 +35,5 @@ class PanelEvidence {
   const PinholeCamera& camera_;
   const std::vector<Segment>& outline_;
 };
-
-/// Direction of a place in the ideal image, frame C, z = 1.
-Vector3 ray_of(const Vector2& place_px, const PinholeCamera& camera);
 
 }  // namespace pharos::pointing

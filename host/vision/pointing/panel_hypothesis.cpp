@@ -55,6 +55,7 @@ bool settle_sides(const EdgePair& pair, const PanelSides& measured, const Pinhol
   std::swap(panel.long_planes, panel.short_planes);
   std::swap(panel.long_edges, panel.short_edges);
   lone.sides = {measured.ends[0].extent, measured.ends[1].extent};
+  lone.is_of_faces = is_of_faces({measured.ends[0], measured.ends[1], {}});
   // Known by the other axis, of which the sigma may be another.
   const auto swapped = aspect_in_space(panel, camera);
   return !swapped || swapped->minimum >= kMinAspect;
@@ -95,7 +96,7 @@ std::optional<PanelHypothesis> lone_panel(const MeasuredPair& one, const Pinhole
   const auto axis = axis_of(lone.measurement);
   if (!axis) return std::nullopt;
   lone.axis = *axis;
-  lone.is_of_faces = is_of_faces(one.sides);
+  lone.is_of_faces = lone.is_of_faces || is_of_faces(one.sides);
   return lone;
 }
 

@@ -10,6 +10,9 @@
 
 namespace pharos::pointing {
 
+/// Direction of a place in the ideal image, frame C, z = 1.
+Vector3 ray_of(const Vector2& place_px, const PinholeCamera& camera);
+
 /// One panel's edges, or a wing's two: its edges in one line are one plane where the joint fit is no worse than chance.
 PanelMeasurement measurement_of(const std::vector<PanelSides>& panels, const PinholeCamera& camera);
 

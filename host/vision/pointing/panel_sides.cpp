@@ -19,6 +19,10 @@ constexpr double kCornerOffFraction = 0.015;
 constexpr double kMaxEndTurn = 0.1;
 // Of an edge's contrast: what optics scatter beside an edge stays below it.
 constexpr double kMaxBacking = 0.015;
+// And behind both sides it is the same. Of 949 panels of 550 random satellites two are apart by more (0.99 and 1.25 %
+// of the contrast: a body stands behind one side), 99.5 of a hundred by less than 0.1 %.
+constexpr double kMaxBackdropsApart = 0.004;
+constexpr double kBackdropSigmas = 5.0;
 // Of 228 panels of 120 random satellites two of a hundred have sides that differ by more: frame on one, cells on the
 // other. Faces that the sun lights differently differ by three times.
 constexpr double kMaxBrighter = 2.0;
@@ -61,6 +65,7 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   side.blur_px = edge.blur_px;
   side.contrast = edge.contrast;
   side.backing = edge.backing;
+  side.backdrop = edge.backdrop;
   side.structure_px = edge.structure_px;
   side.extent = edge.extent;
   side.points = std::move(edge.points);
@@ -74,11 +79,19 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   return side;
 }
 
+bool are_apart(const Side& one, const Side& other) {
+  if (!one.backdrop || !other.backdrop) return false;
+  const double sigma = std::hypot(one.backdrop->sigma, other.backdrop->sigma);
+  const double limit = kMaxBackdropsApart * std::min(one.contrast, other.contrast) + kBackdropSigmas * sigma;
+  return std::abs(one.backdrop->level - other.backdrop->level) > limit;
+}
+
 // A panel is thin: beyond its sides is sky. Beyond a face's is another face, in the dark. And it is one plane: where
 // one of two sides is far brighter than the other, they are of two faces.
 bool is_of_faces(const PanelSides& panel) {
   const auto [dark, bright] = std::minmax(panel.first.contrast, panel.second.contrast);
-  return std::max(panel.first.backing, panel.second.backing) > kMaxBacking || bright > kMaxBrighter * dark;
+  return std::max(panel.first.backing, panel.second.backing) > kMaxBacking || are_apart(panel.first, panel.second) ||
+         bright > kMaxBrighter * dark;
 }
 
 Result<PanelSides, PointingRefusal> measured_panel(ImageView<const std::uint16_t> image, const TargetMask& target,

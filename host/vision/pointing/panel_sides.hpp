@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/vision/pointing/edge_points.hpp"
 #include "host/vision/pointing/panel_choice.hpp"
 #include "host/vision/pointing/pointing_refusal.hpp"
 #include "host/vision/pointing/target_mask.hpp"
@@ -18,8 +19,9 @@ struct Side {
   pointing::LineFit fit;
   Segment extent;  ///< in the image as it was taken
   double blur_px = 0.0;
-  double contrast = 0.0;      ///< see MeasuredEdge
-  double backing = 0.0;       ///< see MeasuredEdge
+  double contrast = 0.0;  ///< see MeasuredEdge
+  double backing = 0.0;   ///< see MeasuredEdge
+  std::optional<Backdrop> backdrop;
   double structure_px = 0.0;  ///< see MeasuredEdge
   bool cut = false;
 };

@@ -57,6 +57,16 @@ TEST(FitLine, NeighboursThatErrAlikeMakeTheCovarianceLarger) {
   EXPECT_NEAR(held->variance_inflation, 5.0, 1.5);
 }
 
+// Errors that repeat with the phase at which an edge crosses the grid of pixels average out over a period.
+TEST(FitLine, NeighboursThatAlternateMakeTheCovarianceSmaller) {
+  std::mt19937_64 random(5);
+  std::vector<EdgePoint> points = straight(random, 0.01, 800);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].place_px.y() += i % 2 == 0 ? 0.04 : -0.04;
+  const auto fit = fit_line(points);
+  ASSERT_TRUE(fit.ok());
+  EXPECT_EQ(fit->variance_inflation, 0.5);
+}
+
 TEST(FitLine, ErrorsOfTheEndsWidenTheOffsetsThere) {
   std::mt19937_64 random(4);
   const auto fit = fit_line(straight(random, 0.01));

@@ -26,10 +26,13 @@ void expect_no_failure(const std::string& name, std::initializer_list<std::uint6
 // their axis, whose width was taken for it, across the body as a wing; a body's outline that a panel interrupts;
 // a body's face beside a panel that the border cuts, and beside one of which only one side is measured; a boom with
 // an edge in line; a width taken for the length where the axis is known to some degrees; two faces of a body with the
-// ends of one, and the pieces of a body's sides beside its wings.
+// ends of one, and the pieces of a body's sides beside its wings; booms of a hardly known axis; bodies with a face in
+// the dark behind one side; a side of a panel that the border cuts, with a boom;
+// a body of which dark foil interrupts the outline, as a wing.
 TEST(IntegritySeeds, Line) {
-  expect_no_failure("line", {62,    108,   220,    244,    1039,   1251,   1430,   1446,   3378,   60259, 60665,
-                             60891, 61369, 200023, 200314, 300074, 300237, 400097, 430006, 432141, 432378});
+  expect_no_failure("line", {62,     108,    220,    244,    1039,   1251,   1430,   1446,   3378,   60259,
+                             60665,  60891,  61369,  200023, 200314, 300074, 300237, 400097, 430006, 432141,
+                             432378, 450045, 450232, 450280, 450365, 460048, 460270, 462197, 463120});
 }
 
 // Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them.
@@ -38,8 +41,9 @@ TEST(IntegritySeeds, Ellipses) {
 }
 
 // A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster or
-// a cover for a connector behind a boom; a small ring, of which depth alone tells the size, for a described connector.
-TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061, 123135, 202518}); }
+// a cover for a connector behind a boom; a small ring, of which depth alone tells the size, for a described connector,
+// and one of three thrusters.
+TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061, 123135, 202518, 460234}); }
 
 // The foot of a ring, the edge of a round body, whose nozzle the ring was taken for, a small ring beside it, a groove;
 // two bodies with a second ring; a groove behind a ring that a boom crosses.

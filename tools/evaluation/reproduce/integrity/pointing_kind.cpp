@@ -44,6 +44,9 @@ IntegrityTrial trial_of(std::uint64_t seed) {
   const Vector3 truth = sim::station_from_camera(kAzimuth_rad, kElevation_rad) * satellite.axis_camera;
   const double error_deg = std::asin(std::min(1.0, answer.axis.axis.cross(truth).norm())) * kDegPerRad;
   trial.deviations.push_back({"axis, deg", error_deg, answer.axis.sigma_rad() * kDegPerRad, kTolerance_deg});
+  // Where perspective hardly tells the axis, its plane is the answer.
+  const double off_plane_deg = std::asin(std::min(1.0, std::abs(answer.axis.plane.normal.dot(truth)))) * kDegPerRad;
+  trial.deviations.push_back({"plane, deg", off_plane_deg, answer.axis.sigma_plane_rad * kDegPerRad, kTolerance_deg});
   return trial;
 }
 
