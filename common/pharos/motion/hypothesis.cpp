@@ -248,8 +248,9 @@ bool Hypothesis::is_nearer_than_mirrored(const LighthouseFromBody& pose) const {
 }
 
 Matrix6 Hypothesis::second_order() const {
-  if (!tilt_ || !coplanar_) return Matrix6::Zero();
-  return tilt_->second_order(state_estimate_.pose, state_estimate_.covariance.topLeftCorner<3, 3>());
+  const Matrix3 attitude = state_estimate_.covariance.topLeftCorner<3, 3>();
+  if (!tilt_ || attitude.trace() < kLinear_rad * kLinear_rad) return Matrix6::Zero();
+  return tilt_->second_order(state_estimate_.pose, attitude);
 }
 
 double Hypothesis::side_cost_of(const StateEstimate& prediction, const Vector6& offset,
