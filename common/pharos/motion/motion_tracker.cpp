@@ -201,11 +201,13 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   e.time_ns = ticks_to_nanoseconds(result.time_ticks);
   e.pose = state_estimate.pose;
   e.pose.R = orthonormalised(state_estimate.pose.R);
-  e.covariance = state_estimate.covariance + best.second_order();
+  e.covariance = state_estimate.covariance;
   if (!station.calibration) {
     const auto unknown = best.cycle_information(observer).covariance_of(options_.unknown_station);
     if (!unknown) return pose::Refusal::kTooUncertain;
     e.covariance += *unknown;
+  } else {
+    e.covariance += best.second_order();
   }
   e.observations = result.observations;
   e.iterations = 1;

@@ -81,7 +81,10 @@ void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, co
     lose();
     return;
   }
-  if (mirrored_.push(*best_, bearings, axis, view, noise, doubt_sweeps_ == 0)) drop_alternative();
+  // The errors of an unknown station are larger than what perspective tells.
+  if (view.calibration != nullptr && mirrored_.push(*best_, bearings, axis, view, noise, doubt_sweeps_ == 0)) {
+    drop_alternative();
+  }
   if (!alternative_) return;
   // An alternative of an earlier doubt has not counted this sweep yet: this is a new one, in its place, as a body that
   // is steady again has borne the earlier doubt out.
@@ -193,7 +196,7 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
     mirrored_.reset();
     if (!e.second) return;
     begin(alternative_, e.second->pose);
-    if (best_->sees_tilt()) {
+    if (view.calibration != nullptr && best_->sees_tilt()) {
       mirrored_.begin(*alternative_);
       drop_alternative();
       return;
