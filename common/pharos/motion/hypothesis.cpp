@@ -247,10 +247,13 @@ bool Hypothesis::is_nearer_than_mirrored(const LighthouseFromBody& pose) const {
   return rotation_angle_between(pose.R, own.R) < rotation_angle_between(pose.R, tilt_->mirrored(own).R);
 }
 
+bool Hypothesis::tilt_is_loose() const {
+  return tilt_ && state_estimate_.covariance.topLeftCorner<3, 3>().trace() > kLinear_rad * kLinear_rad;
+}
+
 Matrix6 Hypothesis::second_order() const {
-  const Matrix3 attitude = state_estimate_.covariance.topLeftCorner<3, 3>();
-  if (!tilt_ || attitude.trace() < kLinear_rad * kLinear_rad) return Matrix6::Zero();
-  return tilt_->second_order(state_estimate_.pose, attitude);
+  if (!tilt_is_loose()) return Matrix6::Zero();
+  return tilt_->second_order(state_estimate_.pose, state_estimate_.covariance.topLeftCorner<3, 3>());
 }
 
 double Hypothesis::side_cost_of(const StateEstimate& prediction, const Vector6& offset,

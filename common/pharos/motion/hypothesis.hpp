@@ -101,6 +101,8 @@ class Hypothesis {
   bool sees_tilt() const { return tilt_.has_value(); }
   /// Where it was: sigmas between this attitude and the one tilted to the other side.
   double mirrored_apart() const;
+  /// It was, and their tilt is known so little that the bearings' second order in its error counts.
+  bool tilt_is_loose() const;
   /// What the state estimate's covariance lacks where it was, and their tilt is not known well.
   Matrix6 second_order() const;
   /// Whether a pose is nearer to this attitude than to the one tilted to the other side.

@@ -11,8 +11,6 @@ namespace {
 constexpr double kApart = 4.0;
 // Up to which the two are one.
 constexpr double kMet = 1.0;
-// Up to which the tilt may be zero: it shows in its square, which is known to 2 tilt sigma.
-constexpr double kMayBeZero = 8.0;
 // Difference of chi-squared from which the side is told: e^9 to one.
 constexpr double kTold = 18.0;
 
@@ -53,7 +51,7 @@ void MirroredTilt::judge(const Hypothesis& best) {
   }
   if (!best.sees_tilt()) return;
   const double apart = best.mirrored_apart();
-  if (!open_ && apart < kMayBeZero) {
+  if (!open_ && apart < kTiltMayBeZero) {
     open_ = true;
     delta_chi2_ = kTold;
   }
@@ -63,7 +61,7 @@ void MirroredTilt::judge(const Hypothesis& best) {
   if (apart < kMet) {
     mirrored_.reset();
     delta_chi2_ = 0.0;
-  } else if (delta_chi2_ >= kTold && apart > kMayBeZero) {
+  } else if (delta_chi2_ >= kTold && apart > kTiltMayBeZero) {
     reset();
   } else if (!mirrored_ || (delta_chi2_ > 0.0 && best.is_nearer_than_mirrored(mirrored_->state_estimate().pose))) {
     mirrored_ = best.mirrored();

@@ -9,6 +9,10 @@ namespace pharos::motion {
 
 struct SweepFit;
 
+/// Sigmas between an attitude and the mirrored one up to which the tilt may be zero: it shows in its square, which is
+/// known to 2 tilt sigma.
+inline constexpr double kTiltMayBeZero = 8.0;
+
 /// How coplanar sensors are tilted against the line of sight, and the pose in which they are tilted as much to the
 /// other side: each sensor is in the same direction, and as far behind the plane across the line of sight as it was
 /// before it. Bearings tell the two apart by perspective alone.
