@@ -61,8 +61,6 @@ constexpr int kConfirming = 2;
 // again.
 constexpr double kStraight_rad = 0.02;
 constexpr int kFollowed = 3;
-// An attitude known better than this after a sweep makes the bearings' second order negligible.
-constexpr double kLinear_rad = 0.003;
 
 // A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many,
 // two of each rotor.
@@ -231,31 +229,6 @@ void Hypothesis::judge_tilt() {
   side_doubtful_ = square > kTiltAlone_rad * kTiltAlone_rad;
 }
 
-void Hypothesis::see_tilt() {
-  tilt_.reset();
-  if (diverged_ || fit_.used.size() < static_cast<std::size_t>(kMinSensorsToJudge)) return;
-  tilt_ = Tilt::of(fit_, state_estimate_.pose);
-  sweeps_with_relief_ = tilt_ ? 0 : sweeps_with_relief_ + 1;
-}
-
-double Hypothesis::mirrored_apart() const {
-  return std::sqrt(tilt_->apart_square(state_estimate_.covariance.topLeftCorner<3, 3>()));
-}
-
-bool Hypothesis::is_nearer_than_mirrored(const LighthouseFromBody& pose) const {
-  const LighthouseFromBody& own = state_estimate_.pose;
-  return rotation_angle_between(pose.R, own.R) < rotation_angle_between(pose.R, tilt_->mirrored(own).R);
-}
-
-bool Hypothesis::tilt_is_loose() const {
-  return tilt_ && state_estimate_.covariance.topLeftCorner<3, 3>().trace() > kLinear_rad * kLinear_rad;
-}
-
-Matrix6 Hypothesis::second_order() const {
-  if (!tilt_is_loose()) return Matrix6::Zero();
-  return tilt_->second_order(state_estimate_.pose, state_estimate_.covariance.topLeftCorner<3, 3>());
-}
-
 double Hypothesis::side_cost_of(const StateEstimate& prediction, const Vector6& offset,
                                 const AssumedNoise& noise) const {
   if (fit_.used.size() < static_cast<std::size_t>(kMinSensorsToJudge)) return 0.0;
@@ -264,13 +237,6 @@ double Hypothesis::side_cost_of(const StateEstimate& prediction, const Vector6& 
                                     : fit_.information;
   const Innovation innovation = innovation_of(told, prediction.covariance, offset);
   return std::min(innovation.chi2 + told.residual_chi2, kRateResetChi2) + innovation.log_det;
-}
-
-Hypothesis Hypothesis::mirrored() const {
-  Hypothesis other = *this;
-  other.filter_.mirror(*tilt_);
-  other.state_estimate_ = other.with_systematics(other.filter_, observer_);
-  return other;
 }
 
 // How strongly the sweep speaks against the target, and for how long nothing did.

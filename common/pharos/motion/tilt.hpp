@@ -13,6 +13,9 @@ struct SweepFit;
 /// known to 2 tilt sigma.
 inline constexpr double kTiltMayBeZero = 8.0;
 
+/// An attitude known better than this after a sweep makes the bearings' second order negligible.
+inline constexpr double kLinear_rad = 0.003;
+
 /// How coplanar sensors are tilted against the line of sight, and the pose in which they are tilted as much to the
 /// other side: each sensor is in the same direction, and as far behind the plane across the line of sight as it was
 /// before it. Bearings tell the two apart by perspective alone.
