@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pharos/base/ticks.hpp"
+#include "pharos/motion/mahalanobis.hpp"
 
 namespace pharos::motion {
 namespace {
@@ -60,8 +61,6 @@ constexpr int kConfirming = 2;
 // again.
 constexpr double kStraight_rad = 0.02;
 constexpr int kFollowed = 3;
-// An attitude known better than this after a sweep makes the bearings' second order negligible.
-constexpr double kLinear_rad = 0.003;
 
 // A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many,
 // two of each rotor.
@@ -69,6 +68,9 @@ constexpr int kSettled = 16, kSettles = 4;
 // Coplanar sensors whose attitude is known no better than this may be tilted to the other side as well. After a start
 // only the tilt itself speaks for the side (0.03 rad about each of two axes), later the motion before does too.
 constexpr double kMaxTiltAtStart_rad = 0.042, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
+
+// Squared distance (6 degrees of freedom) up to which an alternative is the best hypothesis itself.
+constexpr double kSamePose = 1.0;
 
 bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
@@ -93,6 +95,12 @@ std::int64_t last_hit_ticks(const lighthouse::SweepBearings& bearings, const Tar
     if (find_sensor(target, bearing.sensor) != nullptr) last = std::max(last, bearing.time_ticks);
   }
   return last;
+}
+
+bool same_pose(const Hypothesis& best, const Hypothesis& alternative) {
+  const StateEstimate& state_estimate = best.state_estimate();
+  return mahalanobis_squared(alternative.state_estimate().pose, state_estimate.pose, state_estimate.covariance) <
+         kSamePose;
 }
 
 Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate,
@@ -159,7 +167,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     prediction = with_systematics(filter_, observer);
     fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   }
-  follow(bearings, axis, view, prediction, now);
+  follow(bearings, axis, view, prediction, noise, now);
   withheld_ = withheld_ || hits_disagree(fit_);
   diverged_ = diverged_ || withheld_;
   const int used = static_cast<int>(fit_.used.size());
@@ -190,6 +198,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   }
   state_estimate_ = with_systematics(filter_, observer);
   judge_tilt();
+  see_tilt();
   return fit_;
 }
 
@@ -220,6 +229,16 @@ void Hypothesis::judge_tilt() {
   side_doubtful_ = square > kTiltAlone_rad * kTiltAlone_rad;
 }
 
+double Hypothesis::side_cost_of(const StateEstimate& prediction, const Vector6& offset,
+                                const AssumedNoise& noise) const {
+  if (fit_.used.size() < static_cast<std::size_t>(kMinSensorsToJudge)) return 0.0;
+  const SweepInformation told = has_no_relief(fit_)
+                                    ? perspective_of(fit_, noise.systematic.sensor_position_m / fit_.pose.t.norm())
+                                    : fit_.information;
+  const Innovation innovation = innovation_of(told, prediction.covariance, offset);
+  return std::min(innovation.chi2 + told.residual_chi2, kRateResetChi2) + innovation.log_det;
+}
+
 // How strongly the sweep speaks against the target, and for how long nothing did.
 void Hypothesis::dispute(bool leapt, bool in_doubt, bool pushed) {
   dispute_ = leapt ? 1.0 : dispute_of(fit_, withheld_, nis_);
@@ -233,7 +252,7 @@ void Hypothesis::confirm_anew() { undisputed_ = -kSettles; }
 // Innovation of a sweep. One that rotates the estimate far is linearised again at the corrected pose (iterated extended
 // Kalman filter): at a tenth of a radian a bearing's second-order part is many times its noise.
 void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                        const StateEstimate& prediction, const SweepNoise& noise) {
+                        const StateEstimate& prediction, const AssumedNoise& noise, const SweepNoise& now) {
   Vector6 offset = Vector6::Zero();  // the prediction's pose minus the one linearised at
   Innovation innovation = innovation_of(fit_.information, prediction.covariance, offset);
   for (int round = 0; round < kFollowed; ++round) {
@@ -241,19 +260,20 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
     if ((shift + offset).head<3>().norm() < kStraight_rad) break;
     StateEstimate there = prediction;
     there.pose = prediction.pose.moved_by(shift);
-    const SweepFit again = fit_sweep(bearings, axis, view, there, time_ticks_, noise);
+    const SweepFit again = fit_sweep(bearings, axis, view, there, time_ticks_, now);
     if (again.used.size() < fit_.used.size()) break;
     fit_ = again;
     offset = -shift;
     innovation = innovation_of(fit_.information, prediction.covariance, offset);
   }
+  side_cost_ = side_cost_of(prediction, offset, noise);
   coplanar_ = false;
   if (!fit_.used.empty() && steady(filter_)) {
     const Matrix6 known = prediction.covariance - systematic_of(observer_);  // systematic errors do not shrink
     const Innovation of_known = innovation_of(fit_.information, known, offset);
     const Matrix3 attitude = corrected_covariance(known, fit_.information, of_known).topLeftCorner<3, 3>();
     if (attitude.trace() > kLinear_rad * kLinear_rad) {
-      coplanar_ = count_second_order(fit_, attitude, noise);
+      coplanar_ = count_second_order(fit_, attitude, now);
       innovation = innovation_of(fit_.information, prediction.covariance, offset);
     }
   }

@@ -10,6 +10,7 @@
 #include "pharos/motion/imm_filter.hpp"
 #include "pharos/motion/plausibility.hpp"
 #include "pharos/motion/sweep_fit.hpp"
+#include "pharos/motion/tilt.hpp"
 #include "pharos/track/cycle.hpp"
 
 namespace pharos::motion {
@@ -96,6 +97,22 @@ class Hypothesis {
   /// The last sweep was of coplanar sensors, and to which side they are tilted is not known yet: the attitude is no
   /// better than one cycle tells it, and mirrored it may fit as well.
   bool tilt_unknown() const { return tilt_unknown_; }
+  /// The last sweep was of coplanar sensors.
+  bool sees_tilt() const { return tilt_.has_value(); }
+  /// Where it was: sigmas between this attitude and the one tilted to the other side.
+  double mirrored_apart() const;
+  /// It was, and their tilt is known so little that the bearings' second order in its error counts.
+  bool tilt_is_loose() const;
+  /// What the state estimate's covariance lacks where it was, and their tilt is not known well.
+  Matrix6 second_order() const;
+  /// Whether a pose is nearer to this attitude than to the one tilted to the other side.
+  bool is_nearer_than_mirrored(const LighthouseFromBody& pose) const;
+  /// The same with the sensors tilted to the other side, as after that sweep.
+  Hypothesis mirrored() const;
+  /// A sweep of each rotor was of sensors with relief.
+  bool sees_relief() const { return sweeps_with_relief_ >= 2; }
+  /// -2 ln of the likelihood of the last sweep, as far as it tells the side of the tilt.
+  double side_cost() const { return side_cost_; }
   /// Consecutive sweeps most of whose hits were rejected.
   int consecutive_rejections() const { return consecutive_rejections_; }
   /// Own noise over the assumed one, as estimated.
@@ -123,9 +140,11 @@ class Hypothesis {
   Matrix6 systematic_covariance(const StationState& station_state, double range_m, const AssumedNoise& noise) const;
   void leave_out();
   void judge_tilt();
+  void see_tilt();
+  double side_cost_of(const StateEstimate& prediction, const Vector6& offset, const AssumedNoise& noise) const;
   void dispute(bool leapt, bool in_doubt, bool pushed);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-              const StateEstimate& prediction, const SweepNoise& noise);
+              const StateEstimate& prediction, const AssumedNoise& noise, const SweepNoise& now);
   void learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const;
   void inflate_relative_covariance(double dt_s);
   Matrix6 systematic_of(Observer observer) const;
@@ -149,11 +168,17 @@ class Hypothesis {
   bool withheld_ = false;
   bool coplanar_ = false;  // the last sweep's sensors, where their tilt is not known well
   bool side_doubtful_ = false, tilt_unknown_ = false;
-  int sweeps_of_relief_ = 0;  // in a row
+  int sweeps_of_relief_ = 0;    // in a row
+  std::optional<Tilt> tilt_;    // after the last sweep
+  int sweeps_with_relief_ = 0;  // in a row, whether steady or not
+  double side_cost_ = 0.0;
   double dispute_ = 0.0;
   bool contradicted_ = false;  // by the last sweep
   bool diverged_ = false;
 };
+
+/// Two hypotheses that met: what the better one states holds both.
+bool same_pose(const Hypothesis& best, const Hypothesis& alternative);
 
 /// Time of the last hit of the target's sensors; INT64_MIN where there is none.
 std::int64_t last_hit_ticks(const lighthouse::SweepBearings& bearings, const Target& target);

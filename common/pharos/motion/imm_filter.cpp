@@ -236,6 +236,11 @@ void ImmFilter::inflate_relative_covariance(const Matrix6& covariance) {
   for (MovingState& m : moving_) m.second.ss += covariance;
 }
 
+void ImmFilter::mirror(const Tilt& tilt) {
+  resting_.mirror(tilt);
+  for (MovingState& state : moving_) state.mirror(tilt);
+}
+
 std::size_t ImmFilter::most_probable() const {
   return static_cast<std::size_t>(std::max_element(probability_.begin(), probability_.end()) - probability_.begin());
 }

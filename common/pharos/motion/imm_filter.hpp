@@ -37,6 +37,8 @@ class ImmFilter {
   /// No model explains the last dt_s (impact, docking): resets the rate covariance of the model with the highest
   /// process noise.
   void reset_rates(double dt_s);
+  /// Coplanar sensors tilted to the other side; only when not linked.
+  void mirror(const Tilt& tilt);
   /// From here on a second station takes part, with this pose and covariance.
   void link(const StationFromStation& T_second_reference, const Matrix6& covariance);
   /// Adds to the covariance of the second station's pose error.

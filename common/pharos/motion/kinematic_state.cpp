@@ -30,6 +30,10 @@ void correct_station(SecondStation& second, const Matrix6& Ts, const Matrix6& Tp
   second.pose = second.pose.moved_by(Ts * innovation.whitened);
 }
 
+Matrix6 transformed(const Matrix6& by, const Matrix6& covariance) {
+  return by.lazyProduct(Matrix6(covariance.lazyProduct(by.transpose())));
+}
+
 void add_diagonal(Matrix6& matrix, double rotation, double translation) {
   for (int k = 0; k < 3; ++k) {
     matrix(k, k) += rotation;
@@ -184,6 +188,20 @@ void MovingState::correct_second(const SweepInformation& sweep, const Innovation
   subtract_product(second.sa, Ts, Ta);
   correct_station(second, Ts, Tp, innovation);
   apply(Tp, Tr, Ta, innovation.whitened);
+}
+
+void RestingState::mirror(const Tilt& tilt) {
+  const Matrix6 by = tilt.by_pose(pose);
+  covariance = transformed(by, covariance);
+  pose = tilt.mirrored(pose);
+}
+
+void MovingState::mirror(const Tilt& tilt) {
+  const Matrix6 by = tilt.by_pose(pose);
+  for (Matrix6* block : {&pp, &rp, &rr, &ap, &ar, &aa}) *block = transformed(by, *block);
+  rate = by * rate.eval();
+  acceleration = by * acceleration.eval();
+  pose = tilt.mirrored(pose);
 }
 
 }  // namespace pharos::motion

@@ -6,6 +6,7 @@
 #include "pharos/geometry/pose.hpp"
 #include "pharos/motion/station_relative.hpp"
 #include "pharos/motion/sweep_information.hpp"
+#include "pharos/motion/tilt.hpp"
 
 namespace pharos::motion {
 
@@ -57,6 +58,8 @@ struct RestingState {
   void correct(const SweepInformation& sweep, const Innovation& innovation, bool linked);
   /// A sweep of the second station.
   void correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view);
+  /// Not of one with a second station.
+  void mirror(const Tilt& tilt);
 };
 
 /// Gaussian state of a moving model: pose, rate and acceleration.
@@ -81,6 +84,8 @@ struct MovingState {
   /// A sweep of the reference station; `linked`: a second station is part of the state and is corrected too.
   void correct(const SweepInformation& sweep, const Innovation& innovation, bool linked);
   void correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view);
+  /// Tilted to the other side, from the same motion of the sensors; not of one with a second station.
+  void mirror(const Tilt& tilt);
 
  private:
   void apply(const Matrix6& pose_gain, const Matrix6& rate_gain, const Matrix6& acceleration_gain,

@@ -206,6 +206,8 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
     const auto unknown = best.cycle_information(observer).covariance_of(options_.unknown_station);
     if (!unknown) return pose::Refusal::kTooUncertain;
     e.covariance += *unknown;
+  } else {
+    e.covariance += best.second_order();
   }
   e.observations = result.observations;
   e.iterations = 1;

@@ -41,6 +41,8 @@ bool settled(const StationTrack& track) {
 
 bool settled_together(const StationPair::Tracks& tracks) {
   if (!settled(*tracks[0]) || !settled(*tracks[1])) return false;
+  // A relative pose that takes a wrong tilt over explains it to the joint hypothesis.
+  if (tracks[0]->best()->tilt_is_loose() || tracks[1]->best()->tilt_is_loose()) return false;
   const std::int64_t apart = tracks[0]->best()->last_used_ticks() - tracks[1]->best()->last_used_ticks();
   return std::abs(ticks_to_seconds(apart)) < kFreshPair_s;
 }

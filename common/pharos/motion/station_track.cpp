@@ -25,8 +25,6 @@ constexpr int kSettleSweeps = 6;
 constexpr int kDoubtSweeps = 6;
 // Squared distance (6 degrees of freedom) from which a solved cycle contradicts the track.
 constexpr double kContradiction = 40.0;
-// Squared distance (6 degrees of freedom) up to which an alternative is the best hypothesis itself.
-constexpr double kSamePose = 1.0;
 // A track with larger sigmas than these is discarded.
 constexpr double kLostTrackRotation_rad = 0.7, kLostTrackPosition_m = 1.0;
 // Two solved cycles further apart than this determine no rate.
@@ -58,18 +56,12 @@ track::Cycle estimate_part(const track::Cycle& cycle, const track::IdealObservat
   return part;
 }
 
-// Two hypotheses that met: what the better one states holds both.
-bool same_pose(const Hypothesis& best, const Hypothesis& alternative) {
-  const StateEstimate& state_estimate = best.state_estimate();
-  return mahalanobis_squared(alternative.state_estimate().pose, state_estimate.pose, state_estimate.covariance) <
-         kSamePose;
-}
-
 }  // namespace
 
 void StationTrack::lose() {
   best_.reset();
   drop_alternative();
+  mirrored_.reset();
   refusal_ = pose::Refusal::kTooFewSensors;
 }
 
@@ -89,6 +81,10 @@ void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, co
     lose();
     return;
   }
+  // The errors of an unknown station are larger than what perspective tells.
+  if (view.calibration != nullptr && mirrored_.push(*best_, bearings, axis, view, noise, doubt_sweeps_ == 0)) {
+    drop_alternative();
+  }
   if (!alternative_) return;
   // An alternative of an earlier doubt has not counted this sweep yet: this is a new one, in its place, as a body that
   // is steady again has borne the earlier doubt out.
@@ -106,11 +102,12 @@ void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, co
 // hypothesis that took it needs the benefit of the doubt: its wide covariance holds both.
 void StationTrack::decide_doubt() {
   --doubt_sweeps_;
-  if (delta_chi2() < -kAmbiguousDeltaChi2) {
+  if (alternative_chi2() < -kAmbiguousDeltaChi2) {
     std::swap(best_, alternative_);
+    mirrored_.renew();
     if (alternative_->withheld()) best_->confirm_anew();
   }
-  if (doubt_sweeps_ == 0 || delta_chi2() > kDecided) drop_alternative();
+  if (doubt_sweeps_ == 0 || alternative_chi2() > kDecided) drop_alternative();
 }
 
 void StationTrack::decide() {
@@ -127,9 +124,10 @@ void StationTrack::decide() {
   }
   if (alternative_->cost() < best_->cost()) {
     std::swap(best_, alternative_);
+    mirrored_.renew();
     if (alternative_->withheld()) best_->confirm_anew();
   }
-  if (delta_chi2() > kDecided || same_pose(*best_, *alternative_)) drop_alternative();
+  if (alternative_chi2() > kDecided || same_pose(*best_, *alternative_)) drop_alternative();
 }
 
 bool StationTrack::due() const {
@@ -195,9 +193,16 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
   if (!best_ || best_->consecutive_rejections() >= kMaxConsecutiveRejections) {
     begin(best_, e.pose);
     drop_alternative();
-    if (e.second) begin(alternative_, e.second->pose);
+    mirrored_.reset();
+    if (!e.second) return;
+    begin(alternative_, e.second->pose);
+    if (view.calibration != nullptr && best_->sees_tilt()) {
+      mirrored_.begin(*alternative_);
+      drop_alternative();
+      return;
+    }
     alternative_settled_ = true;
-    if (alternative_) decide();
+    decide();
     return;
   }
   if (agrees(e.pose, e.covariance) || (e.second && agrees(e.second->pose, e.covariance))) return;

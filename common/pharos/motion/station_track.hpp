@@ -7,6 +7,7 @@
 
 #include "pharos/lighthouse/flash_smoother.hpp"
 #include "pharos/motion/hypothesis.hpp"
+#include "pharos/motion/mirrored_tilt.hpp"
 #include "pharos/pose/solve.hpp"
 
 namespace pharos::motion {
@@ -26,12 +27,20 @@ class StationTrack {
 
   const Hypothesis* best() const { return best_ ? &*best_ : nullptr; }
   /// The alternative once it may be compared with the best, else null; its chi-squared minus the best one's.
-  const Hypothesis* alternative() const { return alternative_ && alternative_settled_ ? &*alternative_ : nullptr; }
-  bool has_alternative() const { return alternative_.has_value(); }
-  double delta_chi2() const { return alternative_->cost() - best_->cost(); }
+  const Hypothesis* alternative() const {
+    return settled_alternative()              ? &*alternative_
+           : best_ && mirrored_.apart(*best_) ? &mirrored_.hypothesis()
+                                              : nullptr;
+  }
+  double delta_chi2() const { return settled_alternative() ? alternative_chi2() : mirrored_.delta_chi2(); }
+  bool has_alternative() const {
+    return alternative_.has_value() || (alternative() != nullptr && delta_chi2() < kAmbiguousDeltaChi2);
+  }
   pose::Refusal last_refusal() const { return refusal_; }
 
  private:
+  bool settled_alternative() const { return alternative_ && alternative_settled_; }
+  double alternative_chi2() const { return alternative_->cost() - best_->cost(); }
   bool due() const;
   bool agrees(const LighthouseFromBody& pose, const Matrix6& covariance) const;
   void decide();
@@ -40,6 +49,7 @@ class StationTrack {
 
   std::optional<Hypothesis> best_, alternative_;
   bool alternative_settled_ = false;
+  MirroredTilt mirrored_;
   // Sweeps by which the alternative, if it is the best one without a doubtful sweep, is still judged.
   int doubt_sweeps_ = 0;
   int cycles_unchecked_ = 0;

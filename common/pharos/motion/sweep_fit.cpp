@@ -25,6 +25,8 @@ constexpr double kForeign_m = 3e-3;
 
 // Sweeps that an attitude error lasts, so that its second order does not average out in them: 2.5 s of one station.
 constexpr double kSameErrorSweeps = 300.0;
+// More than any shift (rad), stretch or shear (rad a metre) of a pattern that a prediction leaves.
+constexpr double kAnyShift_rad = 0.01, kAnyStretch_rad_m = 0.1;
 // Sensors with more relief show a tilt itself.
 constexpr double kCoplanar_m = 0.5e-3;
 
@@ -169,12 +171,6 @@ std::size_t worst_of(const HitFits& hits, const SweepInformation& information, c
   return worst;
 }
 
-Vector3 centre_of(const HitFits& hits) {
-  Vector3 centre = Vector3::Zero();
-  for (const HitFit& hit : hits) centre += hit.point_m;
-  return centre / static_cast<double>(hits.size());
-}
-
 bool coplanar(const HitFits& hits, const Vector3& centre) {
   pose::PlaneFit plane(centre);
   for (const HitFit& hit : hits) plane.add(hit.point_m);
@@ -248,6 +244,12 @@ SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const S
   return fit;
 }
 
+Vector3 centre_of(const HitFits& hits) {
+  Vector3 centre = Vector3::Zero();
+  for (const HitFit& hit : hits) centre += hit.point_m;
+  return centre / static_cast<double>(hits.size());
+}
+
 bool has_no_relief(const SweepFit& fit) { return coplanar(fit.used, centre_of(fit.used)); }
 
 bool count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise) {
@@ -265,6 +267,16 @@ bool count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const
   fit.information = sums.close();
   fit.log_density += sums.log_determinant();
   return true;
+}
+
+SweepInformation perspective_of(const SweepFit& fit, double systematic_rad) {
+  const Vector3 centre = centre_of(fit.used);
+  SharedSums sums(kAnyStretch_rad_m * kAnyStretch_rad_m * Matrix3::Identity(), kAnyShift_rad * kAnyShift_rad);
+  for (const HitFit& hit : fit.used) {
+    const double variance = hit.variance + kSameErrorSweeps * systematic_rad * systematic_rad;
+    sums.add(hit.jacobian, hit.residual_rad, 1.0 / variance, hit.point_m - centre);
+  }
+  return sums.close();
 }
 
 }  // namespace pharos::motion

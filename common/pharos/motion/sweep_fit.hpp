@@ -64,6 +64,9 @@ inline constexpr double kHitGate = 5.0;
 SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                    const StateEstimate& state_estimate, std::int64_t time_ticks, const SweepNoise& noise);
 
+/// Where they are on average, lighthouse frame; of at least one.
+Vector3 centre_of(const HitFits& hits);
+
 /// Whether the hits used are those of coplanar sensors.
 bool has_no_relief(const SweepFit& fit);
 
@@ -77,5 +80,9 @@ inline constexpr double kTiltAlone_rad = 0.03;
 /// error. That part stretches and shears the pattern of the hits; to which side they are tilted shows in its
 /// perspective, and stays as certain as it was. False where the sensors have relief: nothing was changed.
 bool count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise);
+
+/// What the hits of coplanar sensors tell by perspective alone: any shift, stretch and shear of their pattern is taken
+/// for noise. `systematic_rad`: error of each that is the same for kSameErrorSweeps.
+SweepInformation perspective_of(const SweepFit& fit, double systematic_rad);
 
 }  // namespace pharos::motion

@@ -70,7 +70,7 @@ class FaultyTarget {
 };
 
 struct Count {
-  int answers = 0, ok = 0, refused = 0, wrong = 0;
+  int answers = 0, ok = 0, ambiguous = 0, refused = 0, wrong = 0;
   double worst_mm = 0.0, worst_deg = 0.0;
 };
 
@@ -102,8 +102,12 @@ inline void fly(const sim::LighthouseScenario& scenario, std::uint64_t seed, Fau
       const auto result = tracker->push(*sweep);
       if (!result) continue;
       ++count.answers;
-      if (!result->pose || result->pose->ambiguous()) {
+      if (!result->pose) {
         ++count.refused;
+        continue;
+      }
+      if (result->pose->ambiguous()) {
+        ++count.ambiguous;
         continue;
       }
       ++count.ok;
@@ -120,17 +124,26 @@ inline void fly(const sim::LighthouseScenario& scenario, std::uint64_t seed, Fau
   }
 }
 
-/// Flights of 4 s with these seeds.
+/// A manoeuvre of 4 s.
+inline sim::LighthouseScenario faulty_flight(std::uint64_t seed) {
+  const double pace = 1.0 + static_cast<double>(seed % 3);
+  return manoeuvre(4.0, 0.4 * pace, 40.0 * pace, seed);
+}
+
+/// Flights with these seeds; those with wrong answers are named.
 inline Count score_of(Fault fault, double fraction, double onset_s = 0.0, std::uint64_t first = 1,
-                      std::uint64_t last = 10) {
+                      std::uint64_t last = 10, sim::LighthouseScenario (*flight)(std::uint64_t) = faulty_flight) {
   Count count;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
-    const double pace = 1.0 + static_cast<double>(seed % 3);
-    fly(manoeuvre(4.0, 0.4 * pace, 40.0 * pace, seed), seed, fault, fraction, onset_s, count);
+    const int before = count.wrong;
+    fly(flight(seed), seed, fault, fraction, onset_s, count);
+    if (count.wrong > before) {
+      std::printf("flight %llu: %d wrong\n", static_cast<unsigned long long>(seed), count.wrong - before);
+    }
   }
-  std::printf("fault %d, %5.1f %% from %.0f s: %6d answers, %6d ok, %5d wrong, worst %.0f mm %.1f deg\n",
-              static_cast<int>(fault), 100.0 * fraction, onset_s, count.answers, count.ok, count.wrong, count.worst_mm,
-              count.worst_deg);
+  std::printf("fault %d, %5.1f %% from %.0f s: %6d answers, %6d ok, %6d ambiguous, %5d wrong, worst %.0f mm %.1f deg\n",
+              static_cast<int>(fault), 100.0 * fraction, onset_s, count.answers, count.ok, count.ambiguous, count.wrong,
+              count.worst_mm, count.worst_deg);
   return count;
 }
 

@@ -20,7 +20,8 @@ TEST(FaultyTarget, ASoundOneThatIsSeenFromStraightAheadIsNotFarOff) {
   for (const std::uint64_t seed : {std::uint64_t{24}, std::uint64_t{32}, std::uint64_t{1016}}) {
     const Count count = score_of(Fault::kNone, 1.0, 0.0, seed, seed);
     EXPECT_EQ(count.wrong, 0);
-    EXPECT_GT(count.ok, 0.9 * count.answers);
+    EXPECT_GT(count.ok + count.ambiguous, 0.9 * count.answers);
+    EXPECT_GT(count.ok, 0.8 * count.answers);
   }
 }
 
@@ -60,7 +61,8 @@ TEST(FaultyTarget, AWrongSweepNowAndThenDoesNotOpenTheFilterForTheNextOne) {
   for (const Flight& flight : kFlights) {
     const Count count = score_of(flight.fault, 0.01, flight.onset_s, flight.seed, flight.seed);
     EXPECT_EQ(count.wrong, 0);
-    EXPECT_GT(count.ok, 0.9 * count.answers);
+    EXPECT_GT(count.ok + count.ambiguous, 0.9 * count.answers);
+    EXPECT_GT(count.ok, 0.85 * count.answers);
   }
 }
 
