@@ -21,6 +21,7 @@ constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
 // From an outline's line, where blur leaves target on one side and sky on the other; sigmas of the sky between them.
 constexpr double kBesideLine_px = 5.0;
 constexpr double kSkySigmas = 5.0;
+constexpr double kMinOfGap = 0.7;  // what stands out of a body hides the rest
 // Of the target's pixels that a lone panel of a hardly known axis must cover: booms cover 3 to 9 % of them.
 constexpr double kMinFractionOfTarget = 0.2;
 
@@ -30,6 +31,11 @@ double line_slack_px(const Segment& own) { return kThirdEdgeReach_px + kThirdEdg
 bool is_beyond(const Segment& edge, const Segment& own) {
   const double at = own.station(edge.middle());
   return (at < 0.0 || at > own.length()) && std::abs(own.offset(edge.middle())) < line_slack_px(own);
+}
+
+bool is_beside(const Segment& edge, const Segment& own) {
+  const double at = own.station(edge.middle());
+  return at >= 0.0 && at <= own.length();
 }
 
 }  // namespace
@@ -77,8 +83,8 @@ bool PanelEvidence::is_interrupted(const PanelHypothesis& h) const {
                      [&](const Segment& edge) { return goes_on(h.sides[0], edge) || goes_on(h.sides[1], edge); });
 }
 
-// Whether the outline follows the line between two edges: target on one side of it, sky on the other, all along. Foil
-// may be too dark there for an edge.
+// Whether the outline follows the line between two edges: target on one side of it, sky on the other. Foil may be too
+// dark there for an edge, and a boom may stand out of it.
 bool PanelEvidence::goes_on_between(const Segment& one, const Segment& other) const {
   const bool is_first = one.station(other.middle()) > 0.5 * one.length();
   const Vector2 from = is_first ? one.end : other.end, to = is_first ? other.begin : one.begin;
@@ -90,11 +96,12 @@ bool PanelEvidence::goes_on_between(const Segment& one, const Segment& other) co
     const auto v = std::clamp(static_cast<std::int32_t>(std::lround(place.y())), 0, image_.height_px - 1);
     return image_.at(u, v) > limit;
   };
-  for (double at = 0.0; at <= gap.length(); at += 1.0) {
+  int places = 0, on_outline = 0;
+  for (double at = 0.0; at <= gap.length(); at += 1.0, ++places) {
     const Vector2 place = gap.begin + at * gap.along();
-    if (!is_lit(place + kBesideLine_px * gap.across()) || is_lit(place - kBesideLine_px * gap.across())) return false;
+    if (is_lit(place + kBesideLine_px * gap.across()) && !is_lit(place - kBesideLine_px * gap.across())) ++on_outline;
   }
-  return true;
+  return on_outline >= kMinOfGap * places;
 }
 
 // An edge in line with one of the panel's own that runs along its axis: the other panel's, where that is half hidden.
@@ -105,8 +112,12 @@ bool PanelEvidence::is_third(const PanelHypothesis& h, const Segment& edge) cons
   if (is_own(pair.first) || is_own(pair.second)) return false;
   // As near to a narrow pair's other side, or to anything that hides its end, it is in line by accident: a boom's.
   if (line_slack_px(pair.middle) > kMaxSlackOfWidth * pair.separation) return false;
-  // In line with one of them and beyond its end: beside it a body's edges are as parallel.
-  if (!is_beyond(edge, pair.first) && !is_beyond(edge, pair.second)) return false;
+  // In line with one of them and beyond its end: beside it a body's edges are as parallel. Where it is beside the other
+  // one, or the outline goes on to it, it is the rest of the same side.
+  const auto is_thirds_side = [&](const Segment& own, const Segment& opposite) {
+    return is_beyond(edge, own) && !is_beside(edge, opposite) && !goes_on_between(own, edge);
+  };
+  if (!is_thirds_side(pair.first, pair.second) && !is_thirds_side(pair.second, pair.first)) return false;
   const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);
   if (!side || side->fit.length_px() < kMinThirdEdge * pair.middle.length()) return false;
   if (!is_in_line_with_a_side(h, side->fit)) return false;
