@@ -42,6 +42,8 @@ struct EllipseCounters {
   std::uint32_t ellipses_dropped = 0;
 };
 
+static_assert(kMaxArcs % kArcSamples == 0, "arcs are asked for in whole blocks");
+
 /// Circles around the arcs, side by side: which arcs may touch a contour is asked for several at once.
 struct ArcBounds {
   std::array<float, kMaxArcs> u_px{}, v_px{}, radius_px{};

@@ -27,15 +27,14 @@ constexpr double kMinFractionOfTarget = 0.2;
 
 double line_slack_px(const Segment& own) { return kThirdEdgeReach_px + kThirdEdgeOff * own.length(); }
 
-// In line with an edge and beyond its end.
-bool is_beyond(const Segment& edge, const Segment& own) {
-  const double at = own.station(edge.middle());
-  return (at < 0.0 || at > own.length()) && std::abs(own.offset(edge.middle())) < line_slack_px(own);
-}
-
 bool is_beside(const Segment& edge, const Segment& own) {
   const double at = own.station(edge.middle());
   return at >= 0.0 && at <= own.length();
+}
+
+// In line with an edge and beyond its end.
+bool is_beyond(const Segment& edge, const Segment& own) {
+  return !is_beside(edge, own) && std::abs(own.offset(edge.middle())) < line_slack_px(own);
 }
 
 }  // namespace

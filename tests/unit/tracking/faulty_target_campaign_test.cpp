@@ -39,7 +39,8 @@ TEST(FaultyTargetCampaign, AFaultThatBeginsInFlightGivesNothingThatIsFarOff) {
 TEST(FaultyTargetCampaign, FlightsAskedForGiveNothingThatIsFarOff) {
   const char* asked = std::getenv("PHAROS_FLIGHTS");
   unsigned long long first = 0, last = 0;
-  if (asked == nullptr || std::sscanf(asked, "%llu:%llu", &first, &last) != 2) GTEST_SKIP() << "no PHAROS_FLIGHTS";
+  if (asked == nullptr || std::sscanf(asked, "%llu:%llu", &first, &last) != 2)
+    GTEST_SKIP() << "PHAROS_FLIGHTS=first:last is not given";
   EXPECT_EQ(score_of(Fault::kNone, 1.0, 0.0, first, last).wrong, 0);
   EXPECT_EQ(score_of(Fault::kNone, 1.0, 0.0, first, last, tilting_plate).wrong, 0);
   for (const Fault fault : {Fault::kWrongTimes, Fault::kShiftedSweeps, Fault::kShiftedHits}) {
