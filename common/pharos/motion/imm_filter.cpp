@@ -47,6 +47,8 @@ constexpr double kLostRotation_rad = 0.5, kLostPosition_m = 0.5;
 constexpr double kMaxFilterStep_s = 0.05;
 // Smaller fractions are not mixed; less probable models are not corrected, but restarted from the others.
 constexpr double kNegligible = 1e-3;
+// No model becomes less probable; one that is no more probable than this is not part of the mixture.
+constexpr double kMinProbability = 1e-9;
 
 template <class Parent, class Child>
 Vector6 small_difference(const Pose<Parent, Child>& to, const Pose<Parent, Child>& from) {
@@ -149,6 +151,16 @@ bool ImmFilter::lost(std::size_t m) const {
   return (apart.array() > kAstray * allowed.array()).any();
 }
 
+// The body moved on from the static model, whose covariance hardly lets it follow: linearised ever further from where
+// it is, its pose runs away by kilometres in a second.
+bool ImmFilter::resting_is_astray() const {
+  const std::size_t top = most_probable();
+  if (top == 0) return false;
+  const LighthouseFromBody& there = moving_[top - 1].pose;
+  return (resting_.pose.t - there.t).squaredNorm() > kLostPosition_m * kLostPosition_m ||
+         (resting_.pose.R - there.R).squaredNorm() > 2.0 * kLostRotation_rad * kLostRotation_rad;  // of small angles
+}
+
 void ImmFilter::interact(double dt_s) {
   const double dt = std::min(dt_s, kMaxFilterStep_s);
   Flow flow;  // probability of having gone from i to j
@@ -162,6 +174,10 @@ void ImmFilter::interact(double dt_s) {
     }
     flow[i][i] = probability_[i] * stays;
     for (std::size_t j = 0; j < kModels; ++j) next[j] += flow[i][j];
+  }
+  if (resting_is_astray()) {
+    const MovingState& there = moving_[most_probable() - 1];
+    resting_ = {there.pose, there.pp, {there.second.pose, there.second.ss, there.second.sp}};
   }
   for (std::size_t m = 0; m < kMoving; ++m) {
     if (!lost(m)) continue;
@@ -267,17 +283,17 @@ StateEstimate ImmFilter::state_estimate(Observer observer) const {
   std::array<Vector6, kModels> away;
   // The one of highest process noise is always included: gates need it.
   for (std::size_t i = 0; i < kModels; ++i) {
-    if (probability_[i] >= 1e-9 || i == kMoving) of[i] = seen(i, observer);
+    if (probability_[i] > kMinProbability || i == kMoving) of[i] = seen(i, observer);
   }
   for (std::size_t i = 0; i < kModels; ++i) {
-    if (probability_[i] < 1e-9) continue;
+    if (probability_[i] <= kMinProbability) continue;
     away[i] = i == top ? Vector6(Vector6::Zero()) : small_difference(of[i].pose, of[top].pose);
     mean += probability_[i] * away[i];
     if (i > 0) b.rate += probability_[i] * moving_[i - 1].rate;
   }
   b.pose = of[top].pose.moved_by(mean);
   for (std::size_t i = 0; i < kModels; ++i) {
-    if (probability_[i] < 1e-9) continue;
+    if (probability_[i] <= kMinProbability) continue;
     const Vector6 e = away[i] - mean;
     b.covariance += probability_[i] * (of[i].covariance + e.lazyProduct(e.transpose()));
     Vector6 variance = b.rate.cwiseAbs2();
@@ -321,7 +337,7 @@ double ImmFilter::correct(const SweepInformation& sweep, const LighthouseFromBod
   }
   for (std::size_t i = 0; i < kModels; ++i) {
     probability_[i] /= sum;
-    probability_[i] = std::max(probability_[i], 1e-9);
+    probability_[i] = std::max(probability_[i], kMinProbability);
     if (i == 0) {
       correct_one(resting_, sweep, innovation[i], observer);
     } else {
