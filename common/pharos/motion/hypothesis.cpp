@@ -84,7 +84,7 @@ double chi2_of(const SweepFit& fit, const StateEstimate& prediction) {
 }
 
 bool is_surprise(const SweepFit& fit, double chi2) {
-  return chi2 > kSurpriseChi2 || (chi2 > kCoplanarSurpriseChi2 && has_no_relief(fit));
+  return chi2 > kSurpriseChi2 || (chi2 > kCoplanarSurpriseChi2 && SensorPlane::of(fit.used).holds_all);
 }
 
 }  // namespace
@@ -232,9 +232,9 @@ void Hypothesis::judge_tilt() {
 double Hypothesis::side_cost_of(const StateEstimate& prediction, const Vector6& offset,
                                 const AssumedNoise& noise) const {
   if (fit_.used.size() < static_cast<std::size_t>(kMinSensorsToJudge)) return 0.0;
-  const SweepInformation told = has_no_relief(fit_)
-                                    ? perspective_of(fit_, noise.systematic.sensor_position_m / fit_.pose.t.norm())
-                                    : fit_.information;
+  const SweepInformation told =
+      plane_.holds_all ? perspective_of(fit_, plane_, noise.systematic.sensor_position_m / fit_.pose.t.norm())
+                       : fit_.information;
   const Innovation innovation = innovation_of(told, prediction.covariance, offset);
   return std::min(innovation.chi2 + told.residual_chi2, kRateResetChi2) + innovation.log_det;
 }
@@ -266,6 +266,7 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
     offset = -shift;
     innovation = innovation_of(fit_.information, prediction.covariance, offset);
   }
+  if (!fit_.used.empty()) plane_ = SensorPlane::of(fit_.used);
   side_cost_ = side_cost_of(prediction, offset, noise);
   coplanar_ = false;
   if (!fit_.used.empty() && steady(filter_)) {
@@ -273,7 +274,8 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
     const Innovation of_known = innovation_of(fit_.information, known, offset);
     const Matrix3 attitude = corrected_covariance(known, fit_.information, of_known).topLeftCorner<3, 3>();
     if (attitude.trace() > kLinear_rad * kLinear_rad) {
-      coplanar_ = count_second_order(fit_, attitude, now);
+      coplanar_ = plane_.holds_all;
+      if (coplanar_) count_second_order(fit_, plane_, attitude, now);
       innovation = innovation_of(fit_.information, prediction.covariance, offset);
     }
   }

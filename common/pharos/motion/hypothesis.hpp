@@ -154,6 +154,7 @@ class Hypothesis {
   StateEstimate state_estimate_;
   Observer observer_ = Observer::kReference;  // of the last sweep
   SweepFit fit_;
+  SensorPlane plane_;  // of the sensors that it used
   std::array<StationState, 2> station_states_;
   bool surveyed_ = false;
   std::int64_t time_ticks_ = 0;

@@ -9,7 +9,7 @@ namespace pharos::motion {
 void Hypothesis::see_tilt() {
   tilt_.reset();
   if (diverged_ || fit_.used.size() < static_cast<std::size_t>(kMinSensorsToJudge)) return;
-  tilt_ = Tilt::of(fit_, state_estimate_.pose);
+  tilt_ = Tilt::of(fit_, plane_, state_estimate_.pose);
   sweeps_with_relief_ = tilt_ ? 0 : sweeps_with_relief_ + 1;
 }
 

@@ -171,12 +171,6 @@ std::size_t worst_of(const HitFits& hits, const SweepInformation& information, c
   return worst;
 }
 
-bool coplanar(const HitFits& hits, const Vector3& centre) {
-  pose::PlaneFit plane(centre);
-  for (const HitFit& hit : hits) plane.add(hit.point_m);
-  return plane.thickness_m(plane.normal()) <= kCoplanar_m;
-}
-
 // A rotation d moves a point at q from the centre by d x q + d x (d x q) / 2; the centre's own shift is the
 // translation's. The second part changes a bearing by q . w, w = (d (g . d) - g (d . d)) / 2 with the gradient g of the
 // bearing, one for all hits: each component is half a square d . A d. This is the covariance of w for d ~ N(0, P):
@@ -244,37 +238,37 @@ SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const S
   return fit;
 }
 
-Vector3 centre_of(const HitFits& hits) {
-  Vector3 centre = Vector3::Zero();
-  for (const HitFit& hit : hits) centre += hit.point_m;
-  return centre / static_cast<double>(hits.size());
+SensorPlane SensorPlane::of(const HitFits& hits) {
+  SensorPlane plane;
+  for (const HitFit& hit : hits) plane.centre_m += hit.point_m;
+  plane.centre_m /= static_cast<double>(hits.size());
+  pose::PlaneFit fit(plane.centre_m);
+  for (const HitFit& hit : hits) fit.add(hit.point_m);
+  plane.normal = fit.normal();
+  plane.holds_all = fit.thickness_m(plane.normal) <= kCoplanar_m;
+  return plane;
 }
 
-bool has_no_relief(const SweepFit& fit) { return coplanar(fit.used, centre_of(fit.used)); }
-
-bool count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise) {
-  const Vector3 centre = centre_of(fit.used);
+void count_second_order(SweepFit& fit, const SensorPlane& plane, const Matrix3& attitude_covariance,
+                        const SweepNoise& noise) {
   Vector3 gradient = Vector3::Zero();
   for (const HitFit& hit : fit.used) gradient += hit.jacobian.tail<3>();
   gradient /= static_cast<double>(fit.used.size());
-  if (!coplanar(fit.used, centre)) return false;
   const Matrix3 attitude =
       attitude_covariance * std::min(1.0, kTiltAlone_rad * kTiltAlone_rad / attitude_covariance.trace());
   SharedSums sums(kSameErrorSweeps * second_order_covariance(gradient, attitude), noise.common_rad * noise.common_rad);
   for (const HitFit& hit : fit.used) {
-    sums.add(hit.jacobian, hit.residual_rad, 1.0 / hit.variance, hit.point_m - centre);
+    sums.add(hit.jacobian, hit.residual_rad, 1.0 / hit.variance, hit.point_m - plane.centre_m);
   }
   fit.information = sums.close();
   fit.log_density += sums.log_determinant();
-  return true;
 }
 
-SweepInformation perspective_of(const SweepFit& fit, double systematic_rad) {
-  const Vector3 centre = centre_of(fit.used);
+SweepInformation perspective_of(const SweepFit& fit, const SensorPlane& plane, double systematic_rad) {
   SharedSums sums(kAnyStretch_rad_m * kAnyStretch_rad_m * Matrix3::Identity(), kAnyShift_rad * kAnyShift_rad);
   for (const HitFit& hit : fit.used) {
     const double variance = hit.variance + kSameErrorSweeps * systematic_rad * systematic_rad;
-    sums.add(hit.jacobian, hit.residual_rad, 1.0 / variance, hit.point_m - centre);
+    sums.add(hit.jacobian, hit.residual_rad, 1.0 / variance, hit.point_m - plane.centre_m);
   }
   return sums.close();
 }

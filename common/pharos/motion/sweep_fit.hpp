@@ -34,6 +34,15 @@ struct HitFit {
 
 using HitFits = StaticVector<HitFit, kMaxSensors>;
 
+/// The plane that fits the sensors of some hits best, lighthouse frame; of at least one.
+struct SensorPlane {
+  Vector3 centre_m = Vector3::Zero();  // where they are on average
+  Vector3 normal = Vector3::Zero();
+  bool holds_all = false;  // they are coplanar
+
+  static SensorPlane of(const HitFits& hits);
+};
+
 /// A sweep's hits, linearised, at most one a sensor, and their joint information.
 struct SweepFit {
   SweepInformation information;
@@ -64,25 +73,20 @@ inline constexpr double kHitGate = 5.0;
 SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                    const StateEstimate& state_estimate, std::int64_t time_ticks, const SweepNoise& noise);
 
-/// Where they are on average, lighthouse frame; of at least one.
-Vector3 centre_of(const HitFits& hits);
-
-/// Whether the hits used are those of coplanar sensors.
-bool has_no_relief(const SweepFit& fit);
-
 /// Sigma of the attitude (root of the trace, rad) to which one cycle of four coplanar sensors seen from straight ahead
 /// tells their tilt alone: how large it is, not to which side.
 inline constexpr double kTiltAlone_rad = 0.03;
 
-/// Where the hits are those of coplanar sensors: adds to their noise that of the bearings' second order in an attitude
-/// error with this covariance (after the sweep), and sums anew. Coplanar sensors seen from straight ahead show a tilt
-/// mainly in its square: linearised at an estimate that is off they seem to show it, sweep after sweep with the same
-/// error. That part stretches and shears the pattern of the hits; to which side they are tilted shows in its
-/// perspective, and stays as certain as it was. False where the sensors have relief: nothing was changed.
-bool count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise);
+/// Of hits of coplanar sensors, in `plane`: adds to their noise that of the bearings' second order in an attitude error
+/// with this covariance (after the sweep), and sums anew. Coplanar sensors seen from straight ahead show a tilt mainly
+/// in its square: linearised at an estimate that is off they seem to show it, sweep after sweep with the same error.
+/// That part stretches and shears the pattern of the hits; to which side they are tilted shows in its perspective, and
+/// stays as certain as it was.
+void count_second_order(SweepFit& fit, const SensorPlane& plane, const Matrix3& attitude_covariance,
+                        const SweepNoise& noise);
 
 /// What the hits of coplanar sensors tell by perspective alone: any shift, stretch and shear of their pattern is taken
 /// for noise. `systematic_rad`: error of each that is the same for kSameErrorSweeps.
-SweepInformation perspective_of(const SweepFit& fit, double systematic_rad);
+SweepInformation perspective_of(const SweepFit& fit, const SensorPlane& plane, double systematic_rad);
 
 }  // namespace pharos::motion

@@ -6,7 +6,6 @@
 
 #include "pharos/geometry/rotation.hpp"
 #include "pharos/motion/sweep_fit.hpp"
-#include "pharos/pose/plane_fit.hpp"
 
 namespace pharos::motion {
 namespace {
@@ -19,13 +18,10 @@ Matrix3 reflection(const Vector3& normal) { return Matrix3::Identity() - 2.0 * n
 
 }  // namespace
 
-std::optional<Tilt> Tilt::of(const SweepFit& fit, const LighthouseFromBody& pose) {
-  if (fit.used.size() < kMinSensors || !has_no_relief(fit)) return std::nullopt;
-  const Vector3 centre = centre_of(fit.used);
-  pose::PlaneFit plane(centre);
-  for (const HitFit& hit : fit.used) plane.add(hit.point_m);
+std::optional<Tilt> Tilt::of(const SweepFit& fit, const SensorPlane& plane, const LighthouseFromBody& pose) {
+  if (fit.used.size() < kMinSensors || !plane.holds_all) return std::nullopt;
   const Matrix3 to_body = fit.pose.R.transpose();
-  return Tilt(pose, to_body * (centre - fit.pose.t), to_body * plane.normal());
+  return Tilt(pose, to_body * (plane.centre_m - fit.pose.t), to_body * plane.normal);
 }
 
 Tilt::Tilt(const LighthouseFromBody& pose, const Vector3& body_centre_m, const Vector3& body_normal)

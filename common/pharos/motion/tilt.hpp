@@ -7,6 +7,7 @@
 
 namespace pharos::motion {
 
+struct SensorPlane;
 struct SweepFit;
 
 /// Sigmas between an attitude and the mirrored one up to which the tilt may be zero: it shows in its square, which is
@@ -21,9 +22,9 @@ inline constexpr double kLinear_rad = 0.003;
 /// before it. Bearings tell the two apart by perspective alone.
 class Tilt {
  public:
-  /// Of a body with this pose after the sweep. Empty where the sweep's sensors have relief, or are so few that any
-  /// plane holds them.
-  static std::optional<Tilt> of(const SweepFit& fit, const LighthouseFromBody& pose);
+  /// Of a body with this pose after the sweep, whose sensors' plane it is. Empty where they have relief, or are so few
+  /// that any plane holds them.
+  static std::optional<Tilt> of(const SweepFit& fit, const SensorPlane& plane, const LighthouseFromBody& pose);
 
   /// The rotation between the pose and the mirrored one: twice the tilt.
   double apart_rad() const { return apart_rad_; }
