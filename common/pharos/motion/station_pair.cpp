@@ -68,6 +68,8 @@ void StationPair::survey(const std::optional<StationRelative>& relative) {
 
 void StationPair::lose() {
   joint_.reset();
+  without_.reset();
+  doubt_.end();
   contradictions_ = {};
 }
 
@@ -94,7 +96,7 @@ void StationPair::push(const lighthouse::SweepBearings& bearings, Axis axis, std
     lose();
     return;
   }
-  joint_->push(bearings, axis, view, noise, observer_of(station));
+  take(bearings, axis, observer_of(station), view, noise);
   const Matrix6& covariance = joint_->state_estimate().covariance;
   if (!(rotation_variance(covariance) < kLostPairRotation_rad * kLostPairRotation_rad) ||
       !(position_variance(covariance) < kLostPairPosition_m * kLostPairPosition_m)) {
@@ -103,6 +105,18 @@ void StationPair::push(const lighthouse::SweepBearings& bearings, Axis axis, std
     return;
   }
   watch(station, tracks);
+}
+
+void StationPair::take(const lighthouse::SweepBearings& bearings, Axis axis, Observer observer, const StationView& view,
+                       const AssumedNoise& noise) {
+  joint_->push(bearings, axis, view, noise, observer, &without_);
+  if (!without_) return;
+  if (without_->sweeps() == joint_->sweeps()) {
+    doubt_.begin(*joint_, kMaxStations);
+    return;
+  }
+  without_->push(bearings, axis, view, noise, observer);
+  doubt_.judge(joint_, without_);
 }
 
 // Compares the relative pose with the present estimates of both tracks.

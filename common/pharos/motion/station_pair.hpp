@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "pharos/base/capacity.hpp"
+#include "pharos/motion/doubtful_sweep.hpp"
 #include "pharos/motion/station_relative.hpp"
 #include "pharos/motion/station_track.hpp"
 
@@ -15,9 +16,10 @@ namespace pharos::motion {
 /// state.
 ///
 /// It begins from slot 0's own track: at once where the stations' relative pose was measured, else when both tracks are
-/// settled and determine it. It lives as long as either station sees the body. Each station's own track continues in
-/// parallel: where the two contradict each other for a quarter of a second the joint hypothesis is discarded, and with
-/// it the relative pose if that is the cause.
+/// settled and determine it. It lives as long as either station sees the body. A doubtful sweep is judged by those that
+/// follow it, as in a track of one station (DoubtfulSweep). Each station's own track continues in parallel: where the
+/// two contradict each other for a quarter of a second the joint hypothesis is discarded, and with it the relative pose
+/// if that is the cause.
 class StationPair {
  public:
   using Tracks = std::array<const StationTrack*, kMaxStations>;
@@ -51,6 +53,8 @@ class StationPair {
     }
   };
 
+  void take(const lighthouse::SweepBearings& bearings, Axis axis, Observer observer, const StationView& view,
+            const AssumedNoise& noise);
   const Known* known() const;
   void start(const Tracks& tracks);
   void start_from_both(const Tracks& tracks);
@@ -58,7 +62,8 @@ class StationPair {
   void watch(std::uint8_t station, const Tracks& tracks);
   bool fits(const Known& known, const Tracks& tracks) const;
 
-  std::optional<Hypothesis> joint_;
+  std::optional<Hypothesis> joint_, without_;  // without a doubtful sweep, which joint_ has taken
+  DoubtfulSweep doubt_;
   std::optional<Known> surveyed_, learnt_;
   bool survey_refused_ = false;
   int refusals_ = 0;

@@ -17,12 +17,8 @@ constexpr int kCheckCycles = 16;  // about a quarter of a second between checks 
 constexpr int kCheckCyclesUnconfirmed = 2;
 constexpr int kMinConfirmedSweeps = 32;
 constexpr int kMaxConsecutiveRejections = 2;  // sweeps that contradict a track; one makes a check due at once
-// Difference of chi-squared from which the worse of two hypotheses is dropped: e^9 to one.
-constexpr double kDecided = 18.0;
 // Sweeps that an alternative started in flight needs to estimate its rates before it is compared.
 constexpr int kSettleSweeps = 6;
-// Sweeps after a doubtful one, three of each rotor, that tell whether the body was pushed or the sweep was wrong.
-constexpr int kDoubtSweeps = 6;
 // Squared distance (6 degrees of freedom) from which a solved cycle contradicts the track.
 constexpr double kContradiction = 40.0;
 // A track with larger sigmas than these is discarded.
@@ -67,13 +63,13 @@ void StationTrack::lose() {
 
 void StationTrack::drop_alternative() {
   alternative_.reset();
-  doubt_sweeps_ = 0;
+  doubt_.end();
 }
 
 void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                         const AssumedNoise& noise) {
   if (!best_) return;
-  const bool may_doubt = !alternative_ || doubt_sweeps_ > 0;
+  const bool may_doubt = !alternative_ || doubt_.open();
   best_->push(bearings, axis, view, noise, Observer::kReference, may_doubt ? &alternative_ : nullptr);
   const Matrix6& covariance = best_->state_estimate().covariance;
   if (!(covariance.topLeftCorner<3, 3>().trace() < kLostTrackRotation_rad * kLostTrackRotation_rad) ||
@@ -82,37 +78,24 @@ void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, co
     return;
   }
   // The errors of an unknown station are larger than what perspective tells.
-  if (view.calibration != nullptr && mirrored_.push(*best_, bearings, axis, view, noise, doubt_sweeps_ == 0)) {
+  if (view.calibration != nullptr && mirrored_.push(*best_, bearings, axis, view, noise, !doubt_.open())) {
     drop_alternative();
   }
   if (!alternative_) return;
   // An alternative of an earlier doubt has not counted this sweep yet: this is a new one, in its place, as a body that
   // is steady again has borne the earlier doubt out.
   if (may_doubt && alternative_->sweeps() == best_->sweeps()) {
-    best_->reset_cost();
+    doubt_.begin(*best_, 1);
     alternative_settled_ = false;
-    doubt_sweeps_ = kDoubtSweeps;
     return;
   }
   alternative_->push(bearings, axis, view, noise);
   decide();
 }
 
-// A pushed body moves on as the sweep said; after a wrong one the next sweeps agree with the motion before it. The
-// hypothesis that took it needs the benefit of the doubt: its wide covariance holds both.
-void StationTrack::decide_doubt() {
-  --doubt_sweeps_;
-  if (alternative_chi2() < -kAmbiguousDeltaChi2) {
-    std::swap(best_, alternative_);
-    mirrored_.renew();
-    if (alternative_->withheld()) best_->confirm_anew();
-  }
-  if (doubt_sweeps_ == 0 || alternative_chi2() > kDecided) drop_alternative();
-}
-
 void StationTrack::decide() {
-  if (doubt_sweeps_ > 0) {
-    decide_doubt();
+  if (doubt_.open()) {
+    if (doubt_.judge(best_, alternative_)) mirrored_.renew();
     return;
   }
   if (!alternative_settled_) {
@@ -123,9 +106,8 @@ void StationTrack::decide() {
     return;
   }
   if (alternative_->cost() < best_->cost()) {
-    std::swap(best_, alternative_);
+    take_over(best_, alternative_);
     mirrored_.renew();
-    if (alternative_->withheld()) best_->confirm_anew();
   }
   if (alternative_chi2() > kDecided || same_pose(*best_, *alternative_)) drop_alternative();
 }

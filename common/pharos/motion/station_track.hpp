@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "pharos/lighthouse/flash_smoother.hpp"
-#include "pharos/motion/hypothesis.hpp"
+#include "pharos/motion/doubtful_sweep.hpp"
 #include "pharos/motion/mirrored_tilt.hpp"
 #include "pharos/pose/solve.hpp"
 
@@ -44,14 +44,12 @@ class StationTrack {
   bool due() const;
   bool agrees(const LighthouseFromBody& pose, const Matrix6& covariance) const;
   void decide();
-  void decide_doubt();
   void drop_alternative();
 
   std::optional<Hypothesis> best_, alternative_;
   bool alternative_settled_ = false;
   MirroredTilt mirrored_;
-  // Sweeps by which the alternative, if it is the best one without a doubtful sweep, is still judged.
-  int doubt_sweeps_ = 0;
+  DoubtfulSweep doubt_;  // open: the alternative is the best one without that sweep
   int cycles_unchecked_ = 0;
   // The last cycle solved alone without an alternative.
   std::optional<LighthouseFromBody> solved_;

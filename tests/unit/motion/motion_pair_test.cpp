@@ -52,6 +52,7 @@ class PairFlight {
       : scenario_(scenario), options_(options) {}
   std::optional<StationRelative> relative;
   double settled_s = 2.0;  // results before are not counted
+  std::function<void(lighthouse::Sweep&)> spoil = [](lighthouse::Sweep&) {};
 
   void run(std::uint64_t seed, PairScore& score) {
     sim::LighthouseSimulator simulator(scenario_, seed);
@@ -77,7 +78,8 @@ class PairFlight {
     const auto give = [&] {
       while (decoder->take_ootx()) {
       }
-      while (const auto sweep = decoder->take_sweep()) {
+      while (auto sweep = decoder->take_sweep()) {
+        spoil(*sweep);
         take(fused->push(*sweep), score.fused);
         take(alone[sweep->flash.station]->push(*sweep), score.alone);
       }
@@ -167,6 +169,29 @@ TEST(MotionPair, DoesNotLearnFromATiltThatIsNotKnown) {
   print("coplanar", score);
   EXPECT_EQ(score.far_off, 0);
   EXPECT_GT(score.fused[0].answers, 200);
+}
+
+// Every twentieth sweep of station 1 is 2 mm off. It opens the joint hypothesis, until those that follow tell that it
+// was wrong: from there on it is as if it had never been. The stated variance of the position was five times a sound
+// one's.
+TEST(MotionPair, AWrongSweepDoesNotLeaveItOpen) {
+  const sim::LighthouseScenario scenario = before_two_stations(4.0, 3, 0.4, 40.0);
+  PairFlight flight(scenario);
+  flight.relative = {relative_of(scenario), sigmas(0.2e-3, 0.3e-3)};
+  PairScore sound, spoilt;
+  flight.run(3, sound);
+  int lit = 0;
+  flight.spoil = [&lit](lighthouse::Sweep& sweep) {
+    if (ticks_to_seconds(sweep.flash.start_ticks) < 3.0 || sweep.flash.station != 1 || sweep.hits.empty()) return;
+    if (++lit % 20 != 0) return;
+    for (lighthouse::Hit& hit : sweep.hits) hit.centre_half_ticks += 200;
+  };
+  flight.run(3, spoilt);
+  EXPECT_GE(lit, 100);
+  for (std::size_t station = 0; station < kMaxStations; ++station) {
+    EXPECT_EQ(spoilt.fused[station].answers, sound.fused[station].answers);
+    EXPECT_LT(spoilt.fused[station].sigma_position_square, 2.0 * sound.fused[station].sigma_position_square);
+  }
 }
 
 // A wrong relative pose, or a station that was moved after the calibration.
