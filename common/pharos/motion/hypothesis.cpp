@@ -185,7 +185,10 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     confirmed_ = confirmed_ && withheld_;
   } else if (used > 0) {
     agreements_ = rates_reset_ || nis_ > kRateResetChi2 ? 0 : agreements_ + 1;
-    confirmed_ = confirmed_ || ++fitted_ >= kConfirming;
+    // A body that has just been found is confirmed by sweeps that agree: with new rates a wrong start takes one rotor's
+    // sweeps after the other's, and contradicts each in turn.
+    fitted_ = agreements_ > 0 || sweeps_ > kSettled ? fitted_ + 1 : 0;
+    confirmed_ = confirmed_ || fitted_ >= kConfirming;
     const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
     const CycleInformation::ResidualChi2 residual_chi2 =
         station_state.view.set(axis, fit_.used, station_state.level * own_variance, time, view.calibration == nullptr);
