@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "pharos/motion/mahalanobis.hpp"
+
 namespace pharos::motion {
 namespace {
 
@@ -69,7 +71,10 @@ void MirroredTilt::judge(const Hypothesis& best) {
 }
 
 bool MirroredTilt::apart(const Hypothesis& best) const {
-  return mirrored_ && (!best.sees_tilt() || best.mirrored_apart() > kApart);
+  if (!mirrored_) return false;
+  if (best.sees_tilt()) return best.mirrored_apart() > kApart;
+  const StateEstimate& stated = best.state_estimate();
+  return mahalanobis_squared(mirrored_->state_estimate().pose, stated.pose, stated.covariance) > kApart * kApart;
 }
 
 }  // namespace pharos::motion
