@@ -66,7 +66,8 @@ constexpr int kFollowed = 3;
 // two of each rotor.
 constexpr int kSettled = 16, kSettles = 4;
 // Coplanar sensors whose attitude is known no better than this may be tilted to the other side as well. After a start
-// only the tilt itself speaks for the side (0.03 rad about each of two axes), later the motion before does too.
+// only the tilt itself speaks for the side (0.03 rad about each of two axes), later the motion before does too; and the
+// hypothesis of the other side, which is not followed before a station of unknown calibration.
 constexpr double kMaxTiltAtStart_rad = 0.042, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
 
 // Squared distance (6 degrees of freedom) up to which an alternative is the best hypothesis itself.
@@ -167,7 +168,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     prediction = with_systematics(filter_, observer);
     fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   }
-  follow(bearings, axis, view, prediction, noise, now);
+  follow(bearings, axis, view, prediction, now);
   withheld_ = withheld_ || hits_disagree(fit_);
   diverged_ = diverged_ || withheld_;
   const int used = static_cast<int>(fit_.used.size());
@@ -200,7 +201,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     station_state.systematic = systematic_covariance(station_state, corrected.t.norm(), noise);
   }
   state_estimate_ = with_systematics(filter_, observer);
-  judge_tilt();
+  judge_tilt(view.calibration != nullptr);
   see_tilt();
   return fit_;
 }
@@ -216,7 +217,7 @@ void Hypothesis::leave_out() {
 // Mirrored, coplanar sensors fit as well. Sensors with relief tell the side, once each rotor has seen them: one alone
 // makes the attitude certain about its own axis, and leaves an error about the other that the stated sigma no longer
 // holds.
-void Hypothesis::judge_tilt() {
+void Hypothesis::judge_tilt(bool both_sides_followed) {
   tilt_unknown_ = false;
   if (fit_.used.empty() || !steady(filter_)) return;
   if (!coplanar_) {
@@ -227,19 +228,9 @@ void Hypothesis::judge_tilt() {
   sweeps_of_relief_ = 0;
   const Matrix6 known = state_estimate_.covariance - systematic_of(observer_);
   const double square = known.topLeftCorner<3, 3>().trace();
-  const double max_tilt_rad = sweeps_ > kSettled ? kMaxTilt_rad : kMaxTiltAtStart_rad;
+  const double max_tilt_rad = both_sides_followed || sweeps_ > kSettled ? kMaxTilt_rad : kMaxTiltAtStart_rad;
   tilt_unknown_ = square > max_tilt_rad * max_tilt_rad;
   side_doubtful_ = square > kTiltAlone_rad * kTiltAlone_rad;
-}
-
-double Hypothesis::side_cost_of(const StateEstimate& prediction, const Vector6& offset,
-                                const AssumedNoise& noise) const {
-  if (fit_.used.size() < static_cast<std::size_t>(kMinSensorsToJudge)) return 0.0;
-  const SweepInformation told =
-      plane_.holds_all ? perspective_of(fit_, plane_, noise.systematic.sensor_position_m / fit_.pose.t.norm())
-                       : fit_.information;
-  const Innovation innovation = innovation_of(told, prediction.covariance, offset);
-  return std::min(innovation.chi2 + told.residual_chi2, kRateResetChi2) + innovation.log_det;
 }
 
 // How strongly the sweep speaks against the target, and for how long nothing did.
@@ -255,7 +246,7 @@ void Hypothesis::confirm_anew() { undisputed_ = -kSettles; }
 // Innovation of a sweep. One that rotates the estimate far is linearised again at the corrected pose (iterated extended
 // Kalman filter): at a tenth of a radian a bearing's second-order part is many times its noise.
 void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                        const StateEstimate& prediction, const AssumedNoise& noise, const SweepNoise& now) {
+                        const StateEstimate& prediction, const SweepNoise& now) {
   Vector6 offset = Vector6::Zero();  // the prediction's pose minus the one linearised at
   Innovation innovation = innovation_of(fit_.information, prediction.covariance, offset);
   for (int round = 0; round < kFollowed; ++round) {
@@ -270,7 +261,8 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
     innovation = innovation_of(fit_.information, prediction.covariance, offset);
   }
   if (!fit_.used.empty()) plane_ = SensorPlane::of(fit_.used);
-  side_cost_ = side_cost_of(prediction, offset, noise);
+  predicted_covariance_ = prediction.covariance;
+  predicted_offset_ = offset;
   coplanar_ = false;
   if (!fit_.used.empty() && steady(filter_)) {
     const Matrix6 known = prediction.covariance - systematic_of(observer_);  // systematic errors do not shrink

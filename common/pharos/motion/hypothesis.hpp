@@ -112,7 +112,7 @@ class Hypothesis {
   /// A sweep of each rotor was of sensors with relief.
   bool sees_relief() const { return sweeps_with_relief_ >= 2; }
   /// -2 ln of the likelihood of the last sweep, as far as it tells the side of the tilt.
-  double side_cost() const { return side_cost_; }
+  double side_cost(const AssumedNoise& noise) const;
   /// Consecutive sweeps most of whose hits were rejected.
   int consecutive_rejections() const { return consecutive_rejections_; }
   /// Own noise over the assumed one, as estimated.
@@ -139,12 +139,11 @@ class Hypothesis {
   }
   Matrix6 systematic_covariance(const StationState& station_state, double range_m, const AssumedNoise& noise) const;
   void leave_out();
-  void judge_tilt();
+  void judge_tilt(bool both_sides_followed);
   void see_tilt();
-  double side_cost_of(const StateEstimate& prediction, const Vector6& offset, const AssumedNoise& noise) const;
   void dispute(bool leapt, bool in_doubt, bool pushed);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-              const StateEstimate& prediction, const AssumedNoise& noise, const SweepNoise& now);
+              const StateEstimate& prediction, const SweepNoise& now);
   void learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const;
   void inflate_relative_covariance(double dt_s);
   Matrix6 systematic_of(Observer observer) const;
@@ -154,7 +153,9 @@ class Hypothesis {
   StateEstimate state_estimate_;
   Observer observer_ = Observer::kReference;  // of the last sweep
   SweepFit fit_;
-  SensorPlane plane_;  // of the sensors that it used
+  SensorPlane plane_;                               // of the sensors that it used
+  Matrix6 predicted_covariance_ = Matrix6::Zero();  // of the pose before it
+  Vector6 predicted_offset_ = Vector6::Zero();      // of that pose from the one linearised at
   std::array<StationState, 2> station_states_;
   bool surveyed_ = false;
   std::int64_t time_ticks_ = 0;
@@ -172,7 +173,6 @@ class Hypothesis {
   int sweeps_of_relief_ = 0;    // in a row
   std::optional<Tilt> tilt_;    // after the last sweep
   int sweeps_with_relief_ = 0;  // in a row, whether steady or not
-  double side_cost_ = 0.0;
   double dispute_ = 0.0;
   bool contradicted_ = false;  // by the last sweep
   bool diverged_ = false;

@@ -1,16 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a hypothesis knows of the tilt of coplanar sensors.
+#include <algorithm>
 #include <cmath>
 
 #include "pharos/motion/hypothesis.hpp"
 
 namespace pharos::motion {
+namespace {
+
+// No sweep tells more than this (one in ten million by chance): it is of another motion.
+constexpr double kMaxSideChi2 = 40.0;
+
+}  // namespace
 
 void Hypothesis::see_tilt() {
   tilt_.reset();
   if (diverged_ || fit_.used.size() < static_cast<std::size_t>(kMinSensorsToJudge)) return;
   tilt_ = Tilt::of(fit_, plane_, state_estimate_.pose);
   sweeps_with_relief_ = tilt_ ? 0 : sweeps_with_relief_ + 1;
+}
+
+double Hypothesis::side_cost(const AssumedNoise& noise) const {
+  if (fit_.used.size() < static_cast<std::size_t>(kMinSensorsToJudge)) return 0.0;
+  const SweepInformation told =
+      plane_.holds_all ? perspective_of(fit_, plane_, noise.systematic.sensor_position_m / fit_.pose.t.norm())
+                       : fit_.information;
+  const Innovation innovation = innovation_of(told, predicted_covariance_, predicted_offset_);
+  return std::min(innovation.chi2 + told.residual_chi2, kMaxSideChi2) + innovation.log_det;
 }
 
 double Hypothesis::mirrored_apart() const {

@@ -35,7 +35,7 @@ bool MirroredTilt::push(Hypothesis& best, const lighthouse::SweepBearings& beari
   bool swapped = false;
   if (mirrored_) {
     mirrored_->push(bearings, axis, view, noise);
-    delta_chi2_ = std::min(delta_chi2_ + mirrored_->side_cost() - best.side_cost(), kTold);
+    delta_chi2_ = std::min(delta_chi2_ + mirrored_->side_cost(noise) - best.side_cost(noise), kTold);
     swapped = may_swap && delta_chi2_ <= -kTold;
     if (swapped) {
       std::swap(best, *mirrored_);

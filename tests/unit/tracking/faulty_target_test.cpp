@@ -33,6 +33,31 @@ TEST(FaultyTarget, ASoundOneThatIsSeenFromStraightAheadIsNotFarOff) {
   }
 }
 
+// They begin with four coplanar sensors, known to 0.06 rad before they are known to 0.042: both sides of their tilt are
+// followed from the first sweep on.
+TEST(FaultyTarget, ASoundOneThatBeginsWithCoplanarSensorsIsAnsweredAtOnce) {
+  for (const std::uint64_t seed : {std::uint64_t{3}, std::uint64_t{6}}) {
+    const Count count = score_of(Fault::kNone, 1.0, 0.0, seed, seed);
+    EXPECT_EQ(count.wrong, 0);
+    EXPECT_GT(count.ok, 0.97 * count.answers);
+  }
+}
+
+// A fifth sensor with relief leads both sides of flight 24's tilt to one pose, within a degree: that is one answer.
+TEST(FaultyTarget, ASoundOneIsNotAmbiguousBetweenPosesThatAreOne) {
+  const Count count = score_of(Fault::kNone, 1.0, 0.0, 24, 24);
+  EXPECT_EQ(count.wrong, 0);
+  EXPECT_GT(count.ok, 0.91 * count.answers);
+}
+
+// The second sweep of flight 15547 is wrong: a start that is 119 deg off took one rotor's sweeps with new rates, then
+// the other's, and was reported after four of them, 62 deg off at a stated 5.
+TEST(FaultyTarget, AWrongStartIsNotConfirmedBySweepsThatContradictIt) {
+  const Count count = score_of(Fault::kShiftedHits, 0.01, 0.0, 15547, 15547);
+  EXPECT_EQ(count.wrong, 0);
+  EXPECT_GT(count.ok, 0.85 * count.answers);
+}
+
 TEST(FaultyTarget, WrongTimesGiveNoAnswerThatIsFarOff) {
   for (const double fraction : {0.01, 0.1, 0.5, 1.0}) EXPECT_EQ(score_of(Fault::kWrongTimes, fraction).wrong, 0);
 }
