@@ -290,7 +290,7 @@ void fill_figures(const Matched& m, const Fit& fit, PositionComparison& out) {
     norms.push_back(error.norm());
     out.mean_m += error.norm() / static_cast<double>(m.truth.size());
     squares += error.squaredNorm();
-    if (const auto square = normalised_square(*m.estimate[i], error)) {
+    if (const auto square = normalised_square(*m.estimate[i], fit.lever, error)) {
       nees += *square / 3.0;
       judged += 1.0;
     }
@@ -312,7 +312,7 @@ void count_beyond(const Samples& samples, const Samples& truth, const Clock& clo
                   PositionComparison& out) {
   for (const PositionSample& sample : samples) {
     const auto at = position_at(truth, clock(sample.time_s), kMaxTruthGap_s);
-    const auto square = at ? normalised_square(sample, fit.error(sample, *at)) : std::nullopt;
+    const auto square = at ? normalised_square(sample, fit.lever, fit.error(sample, *at)) : std::nullopt;
     if (!square) continue;
     ++out.judged;
     out.beyond_5_sigmas += *square <= kBeyond_sigmas * kBeyond_sigmas ? 0U : 1U;

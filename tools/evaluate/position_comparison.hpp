@@ -35,8 +35,8 @@ struct PositionComparison {
   Vector3 t_estimate_truth_m = Vector3::Zero();
   Vector3 lever_m = Vector3::Zero();  // of what TRUTH follows, in ESTIMATE's body
   double mean_m = 0.0, median_m = 0.0, rms_m = 0.0, p95_m = 0.0, max_m = 0.0;
-  double spread_m = 0.0;  // RMS of ESTIMATE about its own mean
-  std::optional<double> nees_per_dof;
+  double spread_m = 0.0;               // RMS of ESTIMATE about its own mean
+  std::optional<double> nees_per_dof;  // of what TRUTH follows: the attitude's sigmas times the lever arm count too
   /// Of all rows of ESTIMATE with a covariance where TRUTH knows a position, epochs or not: those beyond five of their
   /// own sigmas (Mahalanobis distance).
   std::size_t judged = 0, beyond_5_sigmas = 0;

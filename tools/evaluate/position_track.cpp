@@ -9,6 +9,7 @@
 
 #include "host/table/table_reader.hpp"
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/rotation.hpp"
 
 namespace pharos::evaluate {
 namespace {
@@ -33,7 +34,8 @@ class PositionTable {
                poses ? std::vector<std::string>{"time_s", "tx_m", "ty_m", "tz_m", "qw", "qx", "qy", "qz"}
                      : std::vector<std::string>{"time_s", "x_m", "y_m", "z_m"}),
         status_(table_.find_optional("status")),
-        sigma_(table_.find_optional("sigma_pos_mm")) {
+        sigma_(table_.find_optional("sigma_pos_mm")),
+        sigma_rotation_(table_.find_optional("sigma_rot_deg")) {
     for (const char* name : {"cov_xx_m2", "cov_xy_m2", "cov_xz_m2", "cov_yy_m2", "cov_yz_m2", "cov_zz_m2"}) {
       if (const auto column = table_.find_optional(name)) covariance_.push_back(*column);
     }
@@ -76,12 +78,16 @@ class PositionTable {
       const double sigma_m = table_.number(*sigma_) / kMmPerM;
       s.covariance_m2 = Matrix3(sigma_m * sigma_m / 3.0 * Matrix3::Identity());
     }
+    if (poses_ && sigma_rotation_ && !table_.empty(*sigma_rotation_)) {
+      const double sigma_rad = table_.number(*sigma_rotation_) / kDegPerRad;
+      s.attitude_covariance_rad2 = Matrix3(sigma_rad * sigma_rad / 3.0 * Matrix3::Identity());
+    }
     return s;
   }
 
   bool poses_;
   TableReader table_;
-  std::optional<std::size_t> status_, sigma_;
+  std::optional<std::size_t> status_, sigma_, sigma_rotation_;
   std::vector<std::size_t> covariance_;
 };
 
@@ -96,9 +102,15 @@ std::string_view header_of(host::ByteSource& source) {
 
 }  // namespace
 
-std::optional<double> normalised_square(const PositionSample& estimate, const Vector3& error_m) {
+std::optional<double> normalised_square(const PositionSample& estimate, const Vector3& lever_m,
+                                        const Vector3& error_m) {
   if (!estimate.covariance_m2) return std::nullopt;
-  const Eigen::LLT<Matrix3> factor(*estimate.covariance_m2);
+  Matrix3 covariance = *estimate.covariance_m2;
+  if (estimate.R_world_body && estimate.attitude_covariance_rad2) {
+    const Matrix3 by_turn = -skew(*estimate.R_world_body * lever_m);
+    covariance += by_turn * *estimate.attitude_covariance_rad2 * by_turn.transpose();
+  }
+  const Eigen::LLT<Matrix3> factor(covariance);
   if (factor.info() != Eigen::Success) return std::nullopt;
   return error_m.dot(factor.solve(error_m));
 }

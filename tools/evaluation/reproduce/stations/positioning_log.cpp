@@ -49,7 +49,7 @@ PositioningLog read_log(const fs::path& path, const fs::path& truth) {
     out.light.hits.push_back({hit.station, hit.plane, {hit.time_s, hit.sensor, hit.theta_rad}});
   }
   for (const convert::CrossingBeam& beam : log.crossing_beams) {
-    out.crossing_beams.samples.push_back({beam.time_s, beam.position_m, std::nullopt, std::nullopt});
+    out.crossing_beams.samples.push_back({beam.time_s, beam.position_m, {}, {}, {}});
   }
   take_marks(log, path.string(), out);
   out.truth = evaluate::read_position_track(truth.string());
@@ -84,7 +84,8 @@ evaluate::PositionTrack tracked_positions(const PositioningLog& log, const netwo
       return;
     }
     const network::WorldFromBody& pose = result->pose.value();
-    out.samples.push_back({result->time_s, pose.t, pose.R, Matrix3(result->covariance.bottomRightCorner<3, 3>())});
+    out.samples.push_back({result->time_s, pose.t, pose.R, Matrix3(result->covariance.bottomRightCorner<3, 3>()),
+                           Matrix3(result->covariance.topLeftCorner<3, 3>())});
   };
   for (const calibrate::NetworkHit& one : log.light.hits) take(tracker->push(one.station, one.plane, one.hit));
   while (const auto last = tracker->flush()) take(last);
