@@ -28,6 +28,7 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
   // What did not fit the state before says nothing of this one.
   for (StationWatch& station : watch_) station.contradicted_s = {-1e9, -1e9};
   time_s_ = recent_[0].time_s();
+  accepted_s_ = checked_s_ = started_s_ = time_s;
   for (std::size_t i = 0; i < recent_.size(); ++i) {
     const PlaneSweep& sweep = recent_[i];
     const double now_s = std::max(time_s_, sweep.time_s());
@@ -42,9 +43,8 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
     filter_.correct(linearised);
     saw(linearised);
   }
-  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise);
+  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise, attitude_doubt_rad());
   if (fix_) filter_.place(*fix_, false);
-  accepted_s_ = checked_s_ = started_s_ = time_s;
   refused_in_row_ = 0;
   left_out_ = 0.0;
 }
@@ -64,7 +64,7 @@ bool NetworkTracker::try_start(double time_s) {
   WorldFromBody pose = choice.pose;
   NetworkState near;
   near.pose = pose;
-  if (const auto fix = fix_of(used_recent(), stations_, target_, near, latest_s(), options_.noise)) {
+  if (const auto fix = fix_of(used_recent(), stations_, target_, near, latest_s(), options_.noise, 0.0)) {
     pose.t = fix->position_m;
   }
   for (StationWatch& station : watch_) station.refused = station.accepted = 0;

@@ -32,6 +32,9 @@ constexpr double kConfirming_m = 0.06;  // a position that is known less well co
 constexpr double kUnconfirmed_rad = 0.15;
 // A lone hit of a target of several sensors cannot be told from a reflection.
 constexpr std::size_t kSensorsForPair = 3;
+// About any axis, 1 sigma: an attitude that may be the mirrored one, as far as some of the sensors' middle is
+// concerned.
+constexpr double kMirrored_rad = 1.0;
 // Hits that do not fit the others of their sweep: an attitude that leaves out so many is wrong. Averaged over so many.
 constexpr double kAttitudeSuspect = 0.125, kAttitudeDoubted = 0.25, kLeftOutSweeps = 8.0;
 // Of the last sweeps so large a fraction at which the rates were forgotten: two stations that contradict each other
@@ -269,7 +272,7 @@ bool NetworkTracker::strayed(bool taken) {
   const bool sure = taken && confirmed(time_s_) && tells_range(target_, options_.noise);
   if (sure && time_s_ - asked_s_ < kAsk_s) return false;
   asked_s_ = time_s_;
-  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise);
+  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise, attitude_doubt_rad());
   if (!fix_) return false;
   const double fix_m2 = fix_->position_covariance().trace();
   const bool confirming = fix_m2 < kConfirming_m * kConfirming_m;
@@ -311,6 +314,13 @@ bool NetworkTracker::check_attitude() {
 // Then the light that a wrong attitude takes draws the position of a small target away.
 bool NetworkTracker::attitude_doubted() const {
   return left_out_ > kAttitudeDoubted && !tells_range(target_, options_.noise);
+}
+
+// Of a flat target it may be the mirrored one while it is new, or leaves out hits. The sensors of a sweep that lacks
+// some are then elsewhere: 12 mm off at a stated 4.
+double NetworkTracker::attitude_doubt_rad() const {
+  const bool open = attitude_suspect() || (!confirmed(time_s_) && !tells_range(target_, options_.noise));
+  return open ? kMirrored_rad : 0.0;
 }
 
 double NetworkTracker::position_variance() const {

@@ -116,6 +116,7 @@ class NetworkTracker {
   bool fix_is_better() const;
   bool attitude_suspect() const;
   bool attitude_doubted() const;
+  double attitude_doubt_rad() const;
   bool check_attitude();
   double position_variance() const;  // of the filter, m^2: the sum of three
   double apart_chi2(const PositionFix& fix, bool but_one) const;

@@ -97,6 +97,7 @@ struct Scene {
   const NetworkState& near;
   const HitNoise& noise;
   double diameter_m;
+  double turn_rad;
 };
 
 /// The mean of a sweep's hits, with the body at `t`. False where it holds none of the target's, or, of a target of
@@ -133,7 +134,8 @@ bool linearise_at(const Vector3& t, const Scene& scene, Row& row) {
   const double jerk_rad = kJerk_m_s3 * std::abs(row.dt_s * row.dt_s * row.dt_s) / 6.0 * row.gradient.norm();
   row.variance = contradiction_rad * contradiction_rad + jerk_rad * jerk_rad +
                  (noise.own_rad * noise.own_rad + std::pow(noise.sensor_m / row.range_m, 2)) / count +
-                 by_turn.dot(scene.near.covariance.topLeftCorner<3, 3>() * by_turn);
+                 by_turn.dot(scene.near.covariance.topLeftCorner<3, 3>() * by_turn) +
+                 scene.turn_rad * scene.turn_rad * by_turn.squaredNorm();
   return std::isfinite(row.residual_rad);
 }
 
@@ -231,10 +233,10 @@ FixPlanes planes_of(const Window& window) {
 }  // namespace
 
 std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
-                                  const NetworkState& near, double now_s, const HitNoise& noise) {
+                                  const NetworkState& near, double now_s, const HitNoise& noise, double turn_rad) {
   Window window = window_of(recent, target, now_s);
   if (window.empty()) return std::nullopt;
-  const Scene scene{stations, target, near, noise, diameter_of(target)};
+  const Scene scene{stations, target, near, noise, diameter_of(target), turn_rad};
   Motion motion{near.pose.t};
   for (int step = 0; step < kSteps; ++step) {
     FixMatrix A = FixMatrix::Zero();

@@ -41,11 +41,12 @@ struct PositionFix {
 
 /// Position, velocity and acceleration at `now_s`, not before any of the sweeps, attitude and its rate taken from
 /// `near`, where at least two stations saw the body with both planes within the last 70 ms: robust least squares of the
-/// sweeps' mean angles, each at its own instant, the more the older the less. Priors: 4 m/s, 20 m/s^2, 500 m/s^3. Empty
-/// where it does not converge, or where some plane's last sweep departs by more than 15 mrad.
+/// sweeps' mean angles, each at its own instant, the more the older the less. Priors: 4 m/s, 20 m/s^2, 500 m/s^3.
+/// `turn_rad`: what the attitude may be off by beside its covariance, about each axis: the mean of some of the sensors
+/// is elsewhere then. Empty where it does not converge, or where some plane's last sweep departs by more than 15 mrad.
 ///
 /// Cost: a 9x9 solution a step, some 10 us on a host.
 std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
-                                  const NetworkState& near, double now_s, const HitNoise& noise);
+                                  const NetworkState& near, double now_s, const HitNoise& noise, double turn_rad);
 
 }  // namespace pharos::network

@@ -93,7 +93,7 @@ TEST(PositionFix, HoldsAtTheTimeThatIsAskedForWhateverTheOrderOfOverlappingSweep
   NetworkState near;
   near.pose = at(now_s);
   near.pose.t += Vector3(0.05, 0.05, 0.05);
-  const auto fix = fix_of(recent, stations, target, near, now_s, NetworkOptions{}.noise);
+  const auto fix = fix_of(recent, stations, target, near, now_s, NetworkOptions{}.noise, 0.0);
   ASSERT_TRUE(fix);
   EXPECT_LT((fix->position_m - at(now_s).t).norm(), 0.001);
   EXPECT_LT((fix->velocity_m_s - velocity_m_s).norm(), 0.05);
