@@ -9,7 +9,9 @@ namespace pharos::network {
 namespace {
 
 constexpr double kUnseen_m = 0.1;
-constexpr double kAgreesChi2 = 9.0;
+// Squared distance of two estimates of a position up to which they agree. The first sweeps of a station that comes back
+// are explained by a wrong velocity as well: only what is expected by chance, three degrees of freedom, counts then.
+constexpr double kAgreesChi2 = 9.0, kExpectedChi2 = 3.0;
 // A sweep that is left so far off was taken by a state that knows hardly anything.
 constexpr double kWorstResidual_rad = 0.015;
 // What an attitude may be off by that leaves out hits: a flat target's mirror.
@@ -141,7 +143,8 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   // Where the filter differs by more than the noise from what two stations tell at once, one of them is wrong by that.
   if (fix_) {
     const Vector3 apart = state.pose.t - fix_->position_m;
-    const double excess = 1.0 - kAgreesChi2 / std::max(kAgreesChi2, apart_chi2(*fix_, false));
+    const double agrees = fix_->sound ? kAgreesChi2 : kExpectedChi2;
+    const double excess = 1.0 - agrees / std::max(agrees, apart_chi2(*fix_, false));
     out.covariance.bottomRightCorner<3, 3>() += excess * apart * apart.transpose();
   }
   const double rotation = std::sqrt(out.covariance.topLeftCorner<3, 3>().trace());

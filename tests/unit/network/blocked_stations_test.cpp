@@ -216,5 +216,14 @@ TEST(BlockedStations, AReflectedSweepDoesNotMoveTheTarget) {
   EXPECT_LE(seen.beyond_attitude, seen.ok / 100);
 }
 
+// The first sweeps of a station that comes back, and a reflection: filter and position of the same light differ, and a
+// row counts by how much, beyond what chance makes. 18 positions were beyond five sigmas.
+TEST(BlockedStations, RowsOfWhichFilterAndPositionDifferSaySo) {
+  Flights seen;
+  for (const std::uint32_t seed : {601U, 602U}) fly(seed, 0.01, seen);
+  EXPECT_GT(seen.ok, 5000);
+  EXPECT_LE(seen.beyond_position, 15);
+}
+
 }  // namespace
 }  // namespace pharos::network
