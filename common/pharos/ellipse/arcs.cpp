@@ -178,8 +178,7 @@ class ArcCutter {
     const EllipseDistance distance(ellipse);
     double squares = 0.0;
     for (const PointF& p : arc.samples) {
-      const double d = distance.px({static_cast<double>(p.u), static_cast<double>(p.v)});
-      squares += d * d;
+      squares += distance.squared_px2({static_cast<double>(p.u), static_cast<double>(p.v)});
     }
     return squares <= kWholeRms_px * kWholeRms_px * kArcSamples;
   }

@@ -12,6 +12,7 @@
 #include "pharos/ellipse/checked_fit.hpp"
 #include "pharos/ellipse/close_edges.hpp"
 #include "pharos/ellipse/cluster.hpp"
+#include "pharos/ellipse/contour_glance.hpp"
 #include "pharos/ellipse/direct_fit.hpp"
 #include "pharos/ellipse/near_edges.hpp"
 #include "pharos/ellipse/refine_fit.hpp"
@@ -47,8 +48,19 @@ constexpr std::size_t kBestFits = 3;
 // by another (285 accepted: at least 0.836 and 0.844). Nine of ten that are completed are rejected.
 constexpr double kHope = 0.8;
 constexpr double kHopeOfRefined = 0.84;
+// Of a first fit's contour: without edges along so much of it at a glance it will not reach it either (of 7706 accepted
+// ones the least has 0.39; of four others three are below).
+constexpr double kMinAtGlance = 0.36;
 // An arc of which this fraction lies on an accepted ellipse proposes no other.
 constexpr double kExplained = 0.5;
+
+// First and last samples that no trim leaves out.
+constexpr std::array<std::size_t, 2> kFittedEnds = {5, kArcSamples - 6};
+// What two samples may lie off a fit of two arcs by together, if its mean square is that of kMaxFitRms_px: 8 px by
+// first order, which is half of the distance at least.
+constexpr double kMaxOff_px = 16.0;
+// A contour's length over its longer axis: perimeter_px() is least at b = a/9.
+constexpr double kMinPerimeter = 2.09;
 
 struct Candidate {
   Ellipse ellipse;
@@ -60,11 +72,13 @@ class Combiner {
   Combiner(const EllipseSettings& settings, EllipseWorkspace& workspace) : settings_(settings), workspace_(workspace) {}
 
   void run() {
-    for (std::size_t k = 0; k < arcs().size(); ++k) order_[k] = static_cast<std::uint16_t>(k);
+    for (std::size_t k = 0; k < arcs().size(); ++k) {
+      if (arcs()[k].seed) order_[seeds_++] = static_cast<std::uint16_t>(k);
+    }
     std::sort(
-        order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(arcs().size()),
+        order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(seeds_),
         [&](std::uint16_t a, std::uint16_t b) { return weight(a) > weight(b) || (weight(a) == weight(b) && a < b); });
-    for (std::size_t k = 0; k < arcs().size(); ++k) propose(k);
+    for (std::size_t k = 0; k < seeds_; ++k) propose(k);
   }
 
  private:
@@ -77,18 +91,19 @@ class Combiner {
   void propose(std::size_t position) {
     const std::uint16_t seed = order_[position];
     const Arc& arc = arcs()[seed];
-    if (!arc.seed || explained_[seed]) return;
+    if (explained_[seed]) return;
     const bool whole = std::abs(arc.turn_rad) >= kTurnOfWhole_rad;
     if (whole && static_cast<double>(arc.radius_px) < kSeenMinor * settings_.min_minor_px) return;
     best_ = {};
     if (std::abs(arc.turn_rad) >= kMinTurnAlone_rad && enough(arc.points())) consider(arc, nullptr);
     if (!(whole && !best_.empty())) {
-      for (std::size_t k = position + 1; k < arcs().size(); ++k) {
+      for (std::size_t k = position + 1; k < seeds_; ++k) {
         const std::uint16_t other = order_[k];
         const Arc& partner = arcs()[other];
-        if (!partner.seed || explained_[other] || !enough(arc.points() + partner.points())) continue;
+        if (explained_[other] || !enough(arc.points() + partner.points())) continue;
         if (std::abs(partner.turn_rad) >= kTurnOfWhole_rad) continue;
         if (std::abs(arc.turn_rad + partner.turn_rad) < kMinTurnOfPair_rad || !may_pair(arc, partner)) continue;
+        if (!may_be_among_best(arc, partner)) continue;
         consider(arc, &partner);
       }
     }
@@ -100,6 +115,21 @@ class Combiner {
     if (best.score < settings_.min_score) return;
     add_to_clusters(best, workspace_);
     mark_arcs_on(best.ellipse, best.bright_inside, kGate_px, kExplained, workspace_, explained_);
+  }
+
+  // Whether the fit to two arcs may rank above the last of the best: its contour is as long as the arcs are apart.
+  bool may_be_among_best(const Arc& one, const Arc& other) const {
+    if (!best_.full()) return true;
+    float squared = 0.0F;
+    for (const std::size_t i : kFittedEnds) {
+      for (const std::size_t k : kFittedEnds) {
+        const float u = one.samples[i].u - other.samples[k].u, v = one.samples[i].v - other.samples[k].v;
+        squared = std::max(squared, u * u + v * v);
+      }
+    }
+    const double length = one.points() + other.points();
+    const double least_px = kMinPerimeter * (std::sqrt(static_cast<double>(squared)) - kMaxOff_px);
+    return length > best_.back().rank * least_px;
   }
 
   // The fit to one arc or two, kept among the best. An arc may continue past its ellipse at its ends (a rounded
@@ -135,8 +165,7 @@ class Combiner {
     const EllipseDistance distance(ellipse);
     double squares = 0.0;
     for (const PointF& p : points) {
-      const double d = distance.px({static_cast<double>(p.u), static_cast<double>(p.v)});
-      squares += d * d;
+      squares += distance.squared_px2({static_cast<double>(p.u), static_cast<double>(p.v)});
       if (squares > kSure * maximum * count) break;
     }
     return squares / count;
@@ -153,6 +182,7 @@ class Combiner {
   }
 
   std::optional<DetectedEllipse> complete(const Ellipse& start, bool bright_inside) {
+    if (glance_along(start, bright_inside, workspace_) < kMinAtGlance) return std::nullopt;
     collect_support(start, bright_inside, kFirstGate_px, workspace_, support_);
     if (score_of(start, support_, settings_).value() < kHope * settings_.min_score) return std::nullopt;
     const std::uint32_t at_first = support_.count;
@@ -193,7 +223,8 @@ class Combiner {
   EllipseWorkspace& workspace_;
   Support support_;
   StaticVector<Candidate, kBestFits> best_;
-  std::array<std::uint16_t, kMaxArcs> order_{};
+  std::array<std::uint16_t, kMaxArcs> order_{};  // of arcs that may propose, the heaviest first
+  std::size_t seeds_ = 0;
   std::array<bool, kMaxArcs> explained_{};
 };
 

@@ -14,6 +14,7 @@ class ContourPlaces {
   struct Place {
     PointPx point;
     double normal_u = 0.0, normal_v = 0.0;  ///< outwards, of length 1
+    double per_speed = 0.0;                 ///< anomaly over length of the contour there, 1/px
   };
 
   /// `count` steps make the whole contour.
@@ -29,7 +30,8 @@ class ContourPlaces {
     const double per_length = 1.0 / std::sqrt(nx * nx + ny * ny);
     const Place place{{e_.cx_px + cos_ * along - sin_ * across, e_.cy_px + sin_ * along + cos_ * across},
                       per_length * (cos_ * nx - sin_ * ny),
-                      per_length * (sin_ * nx + cos_ * ny)};
+                      per_length * (sin_ * nx + cos_ * ny),
+                      per_length};
     const double x = step_cos_ * x_ - step_sin_ * y_;
     y_ = step_sin_ * x_ + step_cos_ * y_;
     x_ = x;

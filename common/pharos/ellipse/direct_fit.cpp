@@ -1,128 +1,135 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/ellipse/direct_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <bit>
+#include <algorithm>
 #include <cmath>
 
 namespace pharos::ellipse {
 namespace {
 
-using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
-
 constexpr std::size_t kMinFitPoints = 6;
 // Keeps the scatter of points that lie exactly on a conic invertible.
 constexpr double kRidge = 1e-11;
+// Of a symmetric part of the scatter: below it the points lie on a line.
+constexpr double kMinPivot = 2e-9;
 
-struct Frame {
-  double u = 0.0, v = 0.0, scale = 1.0;
+struct Vector3 {
+  double x = 0.0, y = 0.0, z = 0.0;
 };
 
-// Quotients by a count; for a power of two, as all samples of one arc or two are, by its exact inverse.
-template <class Quotient>
-Frame frame_of(std::span<const PointF> points, Quotient over_count) {
-  Frame frame;
-  for (const PointF& p : points) {
-    frame.u += over_count(static_cast<double>(p.u));
-    frame.v += over_count(static_cast<double>(p.v));
-  }
-  double squared = 0.0;
-  for (const PointF& p : points) {
-    const double u = static_cast<double>(p.u) - frame.u, v = static_cast<double>(p.v) - frame.v;
-    squared += over_count(u * u + v * v);
-  }
-  frame.scale = std::sqrt(squared);
-  return frame;
-}
+// Sums of products of coordinates from the points' mean, of degree two to four; those of degree one vanish there.
+struct Moments {
+  double mean_u = 0.0, mean_v = 0.0, scale = 0.0;  // scale: root of the mean squared distance from the mean
+  double count = 0.0;
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  double xxx = 0.0, xxy = 0.0, xyy = 0.0, yyy = 0.0;
+  double xxxx = 0.0, xxxy = 0.0, xxyy = 0.0, xyyy = 0.0, yyyy = 0.0;
 
-Frame frame_of(std::span<const PointF> points) {
-  const double count = static_cast<double>(points.size()), inverse = 1.0 / count;
-  if (std::has_single_bit(points.size())) return frame_of(points, [inverse](double sum) { return sum * inverse; });
-  return frame_of(points, [count](double sum) { return sum / count; });
-}
+  explicit Moments(std::span<const PointF> points) : count(static_cast<double>(points.size())) {
+    for (const PointF& p : points) {
+      mean_u += static_cast<double>(p.u);
+      mean_v += static_cast<double>(p.v);
+    }
+    mean_u /= count;
+    mean_v /= count;
+    for (const PointF& p : points) add(static_cast<double>(p.u) - mean_u, static_cast<double>(p.v) - mean_v);
+    scale = std::sqrt((xx + yy) / count);
+  }
 
-// Sums of products of (x^2, x y, y^2) and (x, y, 1); each different one once.
-struct Scatter {
-  double xxxx = 0.0, xxxy = 0.0, xxyy = 0.0, xyxy = 0.0, xyyy = 0.0, yyyy = 0.0;
-  double xxx = 0.0, xx_y = 0.0, xy_x = 0.0, xy_y = 0.0, yy_x = 0.0, yyy = 0.0;
-  double xx = 0.0, xy = 0.0, yy = 0.0, x = 0.0, y = 0.0;
-
-  void add(double px, double py) {
-    const double pxx = px * px, pxy = px * py, pyy = py * py;
-    xxxx += pxx * pxx;
-    xxxy += pxx * pxy;
-    xxyy += pxx * pyy;
-    xyxy += pxy * pxy;
-    xyyy += pxy * pyy;
-    yyyy += pyy * pyy;
-    xxx += pxx * px;
-    xx_y += pxx * py;
-    xy_x += pxy * px;
-    xy_y += pxy * py;
-    yy_x += pyy * px;
-    yyy += pyy * py;
-    xx += pxx;
-    xy += pxy;
-    yy += pyy;
-    x += px;
-    y += py;
-  }
-  Matrix3 of_quadratic() const {
-    Matrix3 m;
-    m << xxxx, xxxy, xxyy, xxxy, xyxy, xyyy, xxyy, xyyy, yyyy;
-    return m;
-  }
-  Matrix3 of_both() const {
-    Matrix3 m;
-    m << xxx, xx_y, xx, xy_x, xy_y, xy, yy_x, yyy, yy;
-    return m;
-  }
-  Matrix3 of_linear(std::size_t count) const {
-    Matrix3 m;
-    m << xx, xy, x, xy, yy, y, x, y, static_cast<double>(count);
-    return m;
-  }
-};
-
-// L L^T of a symmetric positive definite matrix, whose lower half is read. Eigen's own may use the heap.
-class Root {
- public:
-  // False where the matrix is not positive definite.
-  bool take(const Matrix3& m) {
-    if (!(m(0, 0) > 0.0)) return false;
-    l00_ = std::sqrt(m(0, 0));
-    l10_ = m(1, 0) / l00_;
-    l20_ = m(2, 0) / l00_;
-    const double second = m(1, 1) - l10_ * l10_;
-    if (!(second > 0.0)) return false;
-    l11_ = std::sqrt(second);
-    l21_ = (m(2, 1) - l20_ * l10_) / l11_;
-    const double third = m(2, 2) - (l20_ * l20_ + l21_ * l21_);
-    if (!(third > 0.0)) return false;
-    l22_ = std::sqrt(third);
-    return true;
-  }
-  // L x = b
-  Vector3 lower(const Vector3& b) const {
-    const double x = b[0] / l00_, y = (b[1] - l10_ * x) / l11_;
-    return {x, y, (b[2] - (l20_ * x + l21_ * y)) / l22_};
-  }
-  // L^T x = b
-  Vector3 upper(const Vector3& b) const {
-    const double z = b[2] / l22_, y = (b[1] - l21_ * z) / l11_;
-    return {(b[0] - (l10_ * y + l20_ * z)) / l00_, y, z};
+  // In units of `scale`.
+  void normalise() {
+    const double one = 1.0 / scale, two = one * one, three = two * one, four = two * two;
+    for (double* sum : {&xx, &xy, &yy}) *sum *= two;
+    for (double* sum : {&xxx, &xxy, &xyy, &yyy}) *sum *= three;
+    for (double* sum : {&xxxx, &xxxy, &xxyy, &xyyy, &yyyy}) *sum *= four;
   }
 
  private:
-  double l00_ = 1.0, l10_ = 0.0, l11_ = 1.0, l20_ = 0.0, l21_ = 0.0, l22_ = 1.0;
+  void add(double x, double y) {
+    const double px = x * x, pxy = x * y, py = y * y;
+    xx += px;
+    xy += pxy;
+    yy += py;
+    xxx += px * x;
+    xxy += px * y;
+    xyy += py * x;
+    yyy += py * y;
+    xxxx += px * px;
+    xxxy += px * pxy;
+    xxyy += px * py;
+    xyyy += py * pxy;
+    yyyy += py * py;
+  }
 };
+
+// The linear part of a conic, (D, E, F), that fits best to a given quadratic one, (A, B, C), as a matrix.
+struct Elimination {
+  Vector3 d, e, f;
+
+  static double of(const Vector3& row, const Vector3& q) { return row.x * q.x + row.y * q.y + row.z * q.z; }
+  Vector3 linear(const Vector3& q) const { return {of(d, q), of(e, q), of(f, q)}; }
+};
+
+// Empty where the points lie on a line.
+std::optional<Elimination> elimination_of(const Moments& m) {
+  const double determinant = m.xx * m.yy - m.xy * m.xy;
+  if (!(determinant > kMinPivot * m.count * std::max(m.xx, m.yy))) return std::nullopt;
+  const double inverse = 1.0 / determinant, a = m.yy * inverse, b = -m.xy * inverse, c = m.xx * inverse;
+  const double over_count = 1.0 / m.count;
+  return Elimination{{-(a * m.xxx + b * m.xxy), -(a * m.xxy + b * m.xyy), -(a * m.xyy + b * m.yyy)},
+                     {-(b * m.xxx + c * m.xxy), -(b * m.xxy + c * m.xyy), -(b * m.xyy + c * m.yyy)},
+                     {-m.xx * over_count, -m.xy * over_count, -m.yy * over_count}};
+}
+
+// Of the quadratic part, once the linear one is eliminated; the lower half, row by row.
+struct Scatter {
+  double s00, s10, s11, s20, s21, s22;
+};
+
+Scatter scatter_of(const Moments& m, const Elimination& t) {
+  const double ridge = kRidge * (m.xxxx + m.xxyy + m.yyyy);
+  return {m.xxxx + m.xxx * t.d.x + m.xxy * t.e.x + m.xx * t.f.x + ridge,
+          m.xxxy + m.xxy * t.d.x + m.xyy * t.e.x + m.xy * t.f.x,
+          m.xxyy + m.xxy * t.d.y + m.xyy * t.e.y + m.xy * t.f.y + ridge,
+          m.xxyy + m.xyy * t.d.x + m.yyy * t.e.x + m.yy * t.f.x,
+          m.xyyy + m.xyy * t.d.y + m.yyy * t.e.y + m.yy * t.f.y,
+          m.yyyy + m.xyy * t.d.z + m.yyy * t.e.z + m.yy * t.f.z + ridge};
+}
+
+// The only positive root of x^3 + b x^2 - c x - d with c, d > 0, by Newton's method from above.
+double positive_root(double b, double c, double d) {
+  constexpr int kSteps = 60;
+  double x = std::max(0.0, -b) + std::sqrt(c) + d / c;
+  for (int k = 0; k < kSteps; ++k) {
+    const double next = x - (((x + b) * x - c) * x - d) / ((3.0 * x + 2.0 * b) * x - c);
+    if (!(next < x)) break;
+    x = next;
+  }
+  return x;
+}
+
+// The quadratic part (A, B, C) with the least scatter for 4 A C - B^2 = 1, but for its size: C q = mu S q with the
+// positive mu, of which there is one. With S = L L^T it is an eigenvector of L^-1 C L^-T, which is
+// (0, 0, r; 0, -s, t; r, t, z). Empty where S is not positive definite.
+std::optional<Vector3> least_scatter(const Scatter& m) {
+  if (!(m.s00 > 0.0)) return std::nullopt;
+  const double w00 = 1.0 / std::sqrt(m.s00), l10 = m.s10 * w00, l20 = m.s20 * w00;
+  const double second = m.s11 - l10 * l10;
+  if (!(second > 0.0)) return std::nullopt;
+  const double w11 = 1.0 / std::sqrt(second), l21 = (m.s21 - l20 * l10) * w11;
+  const double third = m.s22 - (l20 * l20 + l21 * l21);
+  if (!(third > 0.0)) return std::nullopt;
+  const double w22 = 1.0 / std::sqrt(third);
+  const double w10 = -l10 * w00 * w11, w21 = -l21 * w11 * w22, w20 = -(l20 * w00 + l21 * w10) * w22;  // of L^-1
+  const double r = 2.0 * w00 * w22, s = w11 * w11, t = 2.0 * w10 * w22 - w11 * w21, z = 4.0 * w20 * w22 - w21 * w21;
+  const double root = positive_root(s - z, s * z + t * t + r * r, r * r * s);
+  const double x = r / root, y = t / (s + root);
+  return Vector3{w00 * x + w10 * y + w20, w11 * y + w21, w22};
+}
 
 // A x^2 + B x y + C y^2 + D x + E y + F = 0 as an ellipse; empty where it is not one.
 std::optional<Ellipse> ellipse_of(const Vector3& quadratic, const Vector3& linear) {
-  const double a = quadratic[0], b = quadratic[1], c = quadratic[2], d = linear[0], e = linear[1], f = linear[2];
+  const double a = quadratic.x, b = quadratic.y, c = quadratic.z, d = linear.x, e = linear.y, f = linear.z;
   const double discriminant = 4.0 * a * c - b * b;
   if (!(discriminant > 0.0)) return std::nullopt;
   Ellipse ellipse;
@@ -130,7 +137,7 @@ std::optional<Ellipse> ellipse_of(const Vector3& quadratic, const Vector3& linea
   ellipse.cy_px = (b * d - 2.0 * a * e) / discriminant;
   const double at_centre = f + 0.5 * (d * ellipse.cx_px + e * ellipse.cy_px);
   // Axes: eigenvalues of [a b/2; b/2 c].
-  const double mean = 0.5 * (a + c), spread = 0.5 * std::hypot(a - c, b);
+  const double mean = 0.5 * (a + c), spread = 0.5 * std::sqrt((a - c) * (a - c) + b * b);
   const double squared_one = -at_centre / (mean - spread), squared_two = -at_centre / (mean + spread);
   if (!(squared_one > 0.0) || !(squared_two > 0.0)) return std::nullopt;
   ellipse.a_px = std::sqrt(squared_one);
@@ -146,38 +153,20 @@ std::optional<Ellipse> ellipse_of(const Vector3& quadratic, const Vector3& linea
 
 std::optional<Ellipse> fit_direct(std::span<const PointF> points) {
   if (points.size() < kMinFitPoints) return std::nullopt;
-  const Frame frame = frame_of(points);
-  if (!(frame.scale > 0.0)) return std::nullopt;
-  Scatter sums;
-  for (const PointF& p : points) {
-    sums.add((static_cast<double>(p.u) - frame.u) / frame.scale, (static_cast<double>(p.v) - frame.v) / frame.scale);
-  }
-  const Matrix3 s1 = sums.of_quadratic(), s2 = sums.of_both(), s3 = sums.of_linear(points.size());
-  const Eigen::LDLT<Matrix3> linear_scatter(s3);
-  if (linear_scatter.vectorD().minCoeff() <= 1e-9 * s3.trace()) return std::nullopt;
-  // Column by column: Eigen solves for a matrix by a kernel that keeps the caches' sizes in a static.
-  Matrix3 eliminate;
-  for (int k = 0; k < 3; ++k) eliminate.col(k) = -linear_scatter.solve(s2.row(k).transpose());
-  Matrix3 scatter = s1 + s2 * eliminate;
-  scatter.diagonal().array() += kRidge * s1.trace();
-  // Largest mu of C q = mu S q; C has one positive eigenvalue, and S is positive: it is the ellipse's.
-  Root root;
-  if (!root.take(scatter)) return std::nullopt;
-  Matrix3 constraint;
-  constraint << 0.0, 0.0, 2.0, 0.0, -1.0, 0.0, 2.0, 0.0, 0.0;
-  Matrix3 half, reduced;
-  for (int k = 0; k < 3; ++k) half.col(k) = root.lower(constraint.col(k));
-  for (int k = 0; k < 3; ++k) reduced.col(k) = root.lower(half.row(k).transpose());
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(0.5 * (reduced + reduced.transpose()));
-  if (eigen.info() != Eigen::Success) return std::nullopt;
-  Vector3 quadratic = root.upper(eigen.eigenvectors().col(2));
-  if (quadratic[0] + quadratic[2] < 0.0) quadratic = -quadratic;
-  std::optional<Ellipse> ellipse = ellipse_of(quadratic, eliminate * quadratic);
+  Moments moments(points);
+  if (!(moments.scale > 0.0)) return std::nullopt;
+  moments.normalise();
+  const std::optional<Elimination> elimination = elimination_of(moments);
+  if (!elimination) return std::nullopt;
+  std::optional<Vector3> quadratic = least_scatter(scatter_of(moments, *elimination));
+  if (!quadratic) return std::nullopt;
+  if (quadratic->x + quadratic->z < 0.0) quadratic = {-quadratic->x, -quadratic->y, -quadratic->z};
+  std::optional<Ellipse> ellipse = ellipse_of(*quadratic, elimination->linear(*quadratic));
   if (!ellipse) return std::nullopt;
-  ellipse->cx_px = frame.u + frame.scale * ellipse->cx_px;
-  ellipse->cy_px = frame.v + frame.scale * ellipse->cy_px;
-  ellipse->a_px *= frame.scale;
-  ellipse->b_px *= frame.scale;
+  ellipse->cx_px = moments.mean_u + moments.scale * ellipse->cx_px;
+  ellipse->cy_px = moments.mean_v + moments.scale * ellipse->cy_px;
+  ellipse->a_px *= moments.scale;
+  ellipse->b_px *= moments.scale;
   if (!std::isfinite(ellipse->a_px) || !std::isfinite(ellipse->cx_px) || !std::isfinite(ellipse->cy_px))
     return std::nullopt;
   return ellipse;

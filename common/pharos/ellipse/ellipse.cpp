@@ -45,6 +45,16 @@ double EllipseDistance::px(PointPx point) const {
   return slope * b > 1e-9 ? std::max(f / slope, -b) : -b;
 }
 
+double EllipseDistance::squared_px2(PointPx point) const {
+  const double per_a = 1.0 / ellipse_.a_px, per_b = 1.0 / ellipse_.b_px;
+  const double u = point.u - ellipse_.cx_px, v = point.v - ellipse_.cy_px;
+  const double x = (cos_ * u + sin_ * v) * per_a, y = (cos_ * v - sin_ * u) * per_b;
+  const double f = x * x + y * y - 1.0, squared_b = ellipse_.b_px * ellipse_.b_px;
+  const double squared_slope = 4.0 * (x * x * per_a * per_a + y * y * per_b * per_b);
+  const bool is_central = f < 0.0 && f * f >= squared_b * squared_slope;
+  return is_central ? squared_b : f * f / squared_slope;
+}
+
 double EllipseDistance::far_px(PointPx point) const {
   const double a = ellipse_.a_px, b = ellipse_.b_px;
   const double u = point.u - ellipse_.cx_px, v = point.v - ellipse_.cy_px;

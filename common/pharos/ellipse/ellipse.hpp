@@ -34,6 +34,8 @@ class EllipseDistance {
  public:
   explicit EllipseDistance(const Ellipse& ellipse);
   double px(PointPx point) const;
+  /// Its square, without a root.
+  double squared_px2(PointPx point) const;
   /// To the nearest point of the contour, within a thousandth of the axes at any distance; slower.
   double far_px(PointPx point) const;
 

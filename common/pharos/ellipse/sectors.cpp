@@ -36,8 +36,6 @@ int Sectors::sector_of(PointF p) const {
   return quadrant * quarter_ + std::min(quarter_ - 1, static_cast<int>(fraction * static_cast<float>(quarter_)));
 }
 
-void Sectors::mark(PointF p) { marked_ |= std::uint64_t{1} << sector_of(p); }
-
 ContourFractions Sectors::fractions() const {
   if (marked_ == all_of(count())) return {1.0, 1.0, 1.0, 1.0};
   // Of a quarter from the x axis to the y axis, then of one back: each comes twice.

@@ -27,7 +27,7 @@ class Sectors {
   /// `ellipse` must outlive it. `width_px` of 0: an image without borders.
   Sectors(const Ellipse& ellipse, std::int32_t width_px, std::int32_t height_px);
 
-  void mark(PointF p);
+  void mark(int sector) { marked_ |= std::uint64_t{1} << sector; }
   ContourFractions fractions() const;
 
   int count() const { return 4 * quarter_; }

@@ -167,9 +167,10 @@ void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px,
           support.distance_sum_px += std::abs(static_cast<double>(distance));
           if (support.count++ % support.stride != 0) return;
           const PointF scaled = contact.scaled(place);
-          sectors.mark(scaled);
+          const int sector = sectors.sector_of(scaled);
+          sectors.mark(sector);
           if (support.points.push_back(place)) {
-            support.sectors.push_back(static_cast<std::uint8_t>(sectors.sector_of(scaled)));
+            support.sectors.push_back(static_cast<std::uint8_t>(sector));
             support.squared_gradients.push_back(squared);
           }
         });

@@ -42,7 +42,10 @@ bool is_beyond(const Segment& edge, const Segment& own) {
 bool PanelEvidence::is_confirmed(const PanelHypothesis& h) const {
   if (h.axis.sigma_rad() > kUnsureSigma_rad) return h.is_wing() || is_much_of_target(h);
   if (is_interrupted(h)) return false;
-  return is_in_line(h) || (corners_close(h) && (has_square_ends(h) || is_end_of_plane(h)));
+  // The outline of something else, but for two ends that are whole.
+  const bool is_rectangle = corners_close(h) && has_square_ends(h) && !h.has_corner_end;
+  if (h.has_slanted_end) return h.whole_ends >= 2 && is_rectangle;
+  return is_in_line(h) || is_rectangle || (corners_close(h) && is_end_of_plane(h));
 }
 
 // A boom is a pair of edges as well, so narrow that perspective tells nothing of its axis.
@@ -54,7 +57,7 @@ bool PanelEvidence::is_much_of_target(const PanelHypothesis& h) const {
 
 // A plane region with one end. That end tests nothing by itself: a direction square to the axis lies in any plane.
 bool PanelEvidence::is_end_of_plane(const PanelHypothesis& h) const {
-  return !h.measurement.short_planes.empty() && is_one_plane(image_, target_, h.pairs.front());
+  return !h.has_unknown_end && h.whole_ends > 0 && is_one_plane(image_, target_, h.pairs.front());
 }
 
 bool PanelEvidence::is_in_line(const PanelHypothesis& h) const {

@@ -55,7 +55,8 @@ bool settle_sides(const EdgePair& pair, const PanelSides& measured, const Pinhol
   std::swap(panel.long_planes, panel.short_planes);
   std::swap(panel.long_edges, panel.short_edges);
   lone.sides = {measured.ends[0].extent, measured.ends[1].extent};
-  lone.is_of_faces = is_of_faces({measured.ends[0], measured.ends[1], {}});
+  lone.whole_ends = panel.short_edges.size();
+  lone.is_of_faces = is_of_faces({measured.ends[0], measured.ends[1], {}, {}, false});
   // Known by the other axis, of which the sigma may be another.
   const auto swapped = aspect_in_space(panel, camera);
   return !swapped || swapped->minimum >= kMinAspect;
@@ -75,6 +76,26 @@ bool settle_wing(PanelHypothesis& wing, const PinholeCamera& camera) {
   return true;
 }
 
+PanelSides with_corner_ends(PanelSides sides) {
+  sides.ends.insert(sides.ends.end(), sides.corner_ends.begin(), sides.corner_ends.end());
+  return sides;
+}
+
+// `whole_ends`: of the sides' ends, the first.
+std::optional<PanelHypothesis> lone_with(const EdgePair& pair, const PanelSides& sides, std::size_t whole_ends,
+                                         const PinholeCamera& camera) {
+  PanelHypothesis lone{{pair}, measurement_of({sides}, camera), {}, pair.middle.length()};
+  lone.whole_ends = whole_ends;
+  lone.has_corner_end = whole_ends < std::min<std::size_t>(2, sides.ends.size());
+  if (!settle_sides(pair, sides, camera, lone)) return std::nullopt;
+  const auto axis = axis_of(lone.measurement);
+  if (!axis) return std::nullopt;
+  lone.axis = *axis;
+  lone.is_of_faces = lone.is_of_faces || is_of_faces(sides);
+  lone.has_unknown_end = sides.has_unknown_end;
+  return lone;
+}
+
 }  // namespace
 
 double angle_of(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))); }
@@ -91,12 +112,11 @@ bool lies_in(const AxisPlanes& planes, const AxisEstimate& axis) {
 }
 
 std::optional<PanelHypothesis> lone_panel(const MeasuredPair& one, const PinholeCamera& camera) {
-  PanelHypothesis lone{{one.pair}, measurement_of({one.sides}, camera), {}, one.pair.middle.length()};
-  if (!settle_sides(one.pair, one.sides, camera, lone)) return std::nullopt;
-  const auto axis = axis_of(lone.measurement);
-  if (!axis) return std::nullopt;
-  lone.axis = *axis;
-  lone.is_of_faces = lone.is_of_faces || is_of_faces(one.sides);
+  const std::size_t whole_ends = one.sides.ends.size();
+  std::optional<PanelHypothesis> lone = lone_with(one.pair, with_corner_ends(one.sides), whole_ends, camera);
+  if (one.sides.corner_ends.empty() || (lone && !is_contradicted(*lone))) return lone;
+  lone = lone_with(one.pair, one.sides, whole_ends, camera);
+  if (lone) lone->has_slanted_end = true;
   return lone;
 }
 
@@ -105,6 +125,7 @@ std::optional<PanelHypothesis> wing_of(const MeasuredPair& a, const MeasuredPair
   const auto axis = axis_of(wing.measurement);
   if (!axis) return std::nullopt;
   wing.axis = *axis;
+  wing.whole_ends = wing.measurement.short_edges.size();
   if (!settle_wing(wing, camera)) return std::nullopt;
   wing.score = kWingBonus * (a.pair.middle.length() + b.pair.middle.length());
   return wing;
@@ -127,7 +148,8 @@ bool corners_close(const PanelHypothesis& h) {
   const Segment& first = panel.long_edges.front();
   const Segment& last = panel.long_edges.back();
   const double slack_px = kCornersApart_px + kCornersApartFraction * std::max(first.length(), last.length());
-  return std::all_of(panel.short_edges.begin(), panel.short_edges.end(), [&](const Segment& end) {
+  const auto whole_ends = panel.short_edges.begin() + static_cast<std::ptrdiff_t>(h.whole_ends);
+  return std::all_of(panel.short_edges.begin(), whole_ends, [&](const Segment& end) {
     return std::abs(beyond_side_px(first, end) - beyond_side_px(last, end)) < slack_px;
   });
 }

@@ -23,6 +23,10 @@ struct PanelHypothesis {
   AxisEstimate axis;               // in C
   double score = 0.0;              // px: length, more for a wing
   bool is_of_faces = false;        // no panel's, if its sides are measured right: it competes and is no answer
+  bool has_unknown_end = false;    // see PanelSides
+  bool has_slanted_end = false;    // at a corner of one side, not square to the sides in space
+  bool has_corner_end = false;     // an end is seen from one side only
+  std::size_t whole_ends = 0;      // of the measurement's ends, the first: those that reach from side to side
   std::array<Segment, 2> sides{};  // of a lone pair: the long ones, in the image
 
   bool is_wing() const { return pairs.size() == 2; }

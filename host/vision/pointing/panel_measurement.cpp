@@ -27,6 +27,9 @@ constexpr double kUnknownEndFraction = 0.3;  // of edges whose direction in spac
 // And at least this: what edges without structure are off beyond their points' scatter.
 constexpr double kMinEndSigma_px = 0.001;
 
+// Of the sigma of a panel's axis by its sides: where its ends are known so much better, they tell it.
+constexpr double kOfEndsBetter = 0.5;
+
 double squares(const LineFit& fit) { return fit.rms_px * fit.rms_px * static_cast<double>(fit.points); }
 
 // A line with what all points of a stretch share.
@@ -164,12 +167,21 @@ std::optional<AspectRange> aspect_in_space(const PanelMeasurement& panel, const 
   if (panel.short_planes.empty()) return std::nullopt;
   const auto axis = pointing::estimate_axis({panel.long_planes.data(), panel.long_planes.size()});
   if (!axis || axis->sigma_rad() > kUnsureSigma_rad) return std::nullopt;
+  // Two ends may tell the axis better, as the direction in its plane that is square to them.
+  std::optional<AxisEstimate> across;
+  if (panel.short_planes.size() >= 2) {
+    const auto of_ends = pointing::estimate_axis({panel.short_planes.data(), panel.short_planes.size()});
+    if (of_ends && of_ends->sigma_along_rad < kOfEndsBetter * axis->sigma_along_rad) across = *of_ends;
+  }
+  const AxisEstimate& known = across ? *across : *axis;
   constexpr int kHalf = 4;
   constexpr double kSigmas = 2.0;
   AspectRange range{1e9, 0.0};
   for (int k = -kHalf; k <= kHalf; ++k) {
-    const double turn = kSigmas * axis->sigma_along_rad * k / kHalf;
-    const double aspect = aspect_along(rotation_exp(turn * axis->plane.normal) * axis->axis, panel, camera);
+    const double turn = kSigmas * known.sigma_along_rad * k / kHalf;
+    const Vector3 turned = rotation_exp(turn * known.plane.normal) * known.axis;
+    const Vector3 along = across ? Vector3(axis->plane.normal.cross(turned).normalized()) : turned;
+    const double aspect = aspect_along(along, panel, camera);
     if (!std::isfinite(aspect)) return std::nullopt;
     range = {std::min(range.minimum, aspect), std::max(range.maximum, aspect)};
   }

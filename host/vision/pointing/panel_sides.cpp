@@ -17,6 +17,11 @@ constexpr double kMinSeenFraction = 0.4;  // of a short edge's length
 constexpr double kCornerOff_px = 6.0;
 constexpr double kCornerOffFraction = 0.015;
 constexpr double kMaxEndTurn = 0.1;
+// From where an edge of the outline that begins at a side's end is no more of that side; and what is measured of it.
+constexpr double kMinCornerTurn = 0.2;
+constexpr double kMinCornerEdge = 0.1;  // of the distance between the sides
+constexpr double kMinCornerEdge_px = 12.0;
+constexpr double kMaxUnmeasured = 0.15;  // of a side, beside a sharp corner
 // Of an edge's contrast: what optics scatter beside an edge stays below it.
 constexpr double kMaxBacking = 0.015;
 // And behind both sides it is the same. Of 949 panels of 550 random satellites two are apart by more (0.99 and 1.25 %
@@ -27,32 +32,92 @@ constexpr double kBackdropSigmas = 5.0;
 // other. Faces that the sun lights differently differ by three times.
 constexpr double kMaxBrighter = 2.0;
 
+// Whether an edge is a piece of what is expected between two corners that are known to some pixels.
+bool lies_on(const Segment& edge, const Segment& guess) {
+  const double slack = kCornerOff_px + kCornerOffFraction * guess.length();
+  return std::abs(guess.offset(edge.begin)) < slack && std::abs(guess.offset(edge.end)) < slack;
+}
+
 // The outline's edge between two corners that are known to some pixels; the longest, where others interrupt it.
 const Segment* edge_along(const Segment& guess, const std::vector<Segment>& outline) {
-  const double slack = kCornerOff_px + kCornerOffFraction * guess.length();
   const Segment* best = nullptr;
   for (const Segment& edge : outline) {
-    if (edge.along().dot(guess.along()) < std::cos(kMaxEndTurn)) continue;
-    if (std::abs(guess.offset(edge.begin)) > slack || std::abs(guess.offset(edge.end)) > slack) continue;
+    if (edge.along().dot(guess.along()) < std::cos(kMaxEndTurn) || !lies_on(edge, guess)) continue;
     if (guess.station(edge.end) < 0.0 || guess.station(edge.begin) > guess.length()) continue;
     if (best == nullptr || edge.length() > best->length()) best = &edge;
   }
   return best;
 }
 
-// The ends of a panel: from the end of each long side to the beginning of the other.
-void measure_ends(ImageView<const std::uint16_t> image, const TargetMask& target, const PinholeCamera& camera,
-                  const std::vector<Segment>& outline, PanelSides& panel) {
-  for (const auto& [from, to] : {std::pair{panel.first.extent.end, panel.second.extent.begin},
-                                 {panel.second.extent.end, panel.first.extent.begin}}) {
-    const Segment guess{from, to};
-    const double reach = kReachFraction * std::min(panel.first.extent.length(), panel.second.extent.length());
-    if (guess.length() < 4.0) continue;
+bool are_apart(const Side& one, const Side& other) {
+  if (!one.backdrop || !other.backdrop) return false;
+  const double sigma = std::hypot(one.backdrop->sigma, other.backdrop->sigma);
+  const double limit = kMaxBackdropsApart * std::min(one.contrast, other.contrast) + kBackdropSigmas * sigma;
+  return std::abs(one.backdrop->level - other.backdrop->level) > limit;
+}
+
+// Whether the outline turns inwards where one edge ends and the next one begins: a corner of one thing. What hides a
+// side's end turns it outwards.
+bool is_corner(const Segment& edge, const Segment& next) {
+  const double slack = kCornerOff_px + kCornerOffFraction * edge.length();
+  return (next.begin - edge.end).norm() < slack && edge.across().dot(next.along()) > std::sin(kMinCornerTurn);
+}
+
+// Whether another face in the dark shows behind an end, and not the sky that is behind a side: it hides the panel
+// there.
+bool is_before_a_face(const Side& end, const Side& side) { return end.backing > kMaxBacking || are_apart(end, side); }
+
+struct EndSearch {
+  ImageView<const std::uint16_t> image;
+  const TargetMask& target;
+  const PinholeCamera& camera;
+  const std::vector<Segment>& outline;
+
+  // From the end of one long side to the beginning of the other.
+  void measure(const Side& side, const Side& other, double reach_px, PanelSides& panel) const {
+    const Segment guess{side.extent.end, other.extent.begin};
+    if (guess.length() < 4.0) return;
     const Segment* seen = edge_along(guess, outline);
-    const auto side = measured_side(image, target, camera, seen != nullptr ? *seen : guess, reach);
-    if (!side || side->cut || side->fit.length_px() < kMinSeenFraction * guess.length()) continue;
-    panel.ends.push_back(*side);
+    if (add(seen != nullptr ? *seen : guess, reach_px, kMinSeenFraction * guess.length(), panel.ends)) return;
+    // Something hides the end, or the sides are of two things. Where one of them goes on to a corner, the edge there
+    // is the end.
+    const double min_length = std::max(kMinCornerEdge_px, kMinCornerEdge * guess.length());
+    for (const Segment& edge : outline) {
+      if (edge.length() < min_length || !(is_corner(whole(side), edge) || is_corner(edge, whole(other)))) continue;
+      const auto end = measured_side(image, target, camera, edge, reach_px);
+      const bool is_cut = end ? end->cut : end.error() == PointingRefusal::kCutByBorder;
+      panel.has_unknown_end = panel.has_unknown_end || is_cut;
+      if (!end || is_cut || end->fit.length_px() < min_length || is_before_a_face(*end, side)) continue;
+      panel.corner_ends.push_back(*end);
+    }
   }
+
+  // A side as its outline, where that ends a little beyond: near a sharp corner nothing was measured.
+  Segment whole(const Side& side) const {
+    Segment whole = side.extent;
+    const double reach_px = kMaxUnmeasured * whole.length();
+    for (const Segment& edge : outline) {
+      if (std::abs(side.extent.offset(edge.middle())) > kCornerOff_px) continue;
+      const auto is_near = [&](const Vector2& a, const Vector2& b) { return (a - b).norm() < reach_px; };
+      if (is_near(edge.begin, side.extent.begin) && side.extent.station(edge.begin) < 0.0) whole.begin = edge.begin;
+      if (is_near(edge.end, side.extent.end) && side.extent.station(edge.end) > side.extent.length())
+        whole.end = edge.end;
+    }
+    return whole;
+  }
+
+  bool add(const Segment& edge, double reach_px, double min_length_px, std::vector<Side>& ends) const {
+    const auto end = measured_side(image, target, camera, edge, reach_px);
+    if (!end || end->cut || end->fit.length_px() < min_length_px) return false;
+    ends.push_back(*end);
+    return true;
+  }
+};
+
+void measure_ends(const EndSearch& search, PanelSides& panel) {
+  const double reach = kReachFraction * std::min(panel.first.extent.length(), panel.second.extent.length());
+  search.measure(panel.first, panel.second, reach, panel);
+  search.measure(panel.second, panel.first, reach, panel);
 }
 
 }  // namespace
@@ -79,13 +144,6 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   return side;
 }
 
-bool are_apart(const Side& one, const Side& other) {
-  if (!one.backdrop || !other.backdrop) return false;
-  const double sigma = std::hypot(one.backdrop->sigma, other.backdrop->sigma);
-  const double limit = kMaxBackdropsApart * std::min(one.contrast, other.contrast) + kBackdropSigmas * sigma;
-  return std::abs(one.backdrop->level - other.backdrop->level) > limit;
-}
-
 // A panel is thin: beyond its sides is sky. Beyond a face's is another face, in the dark. And it is one plane: where
 // one of two sides is far brighter than the other, they are of two faces.
 bool is_of_faces(const PanelSides& panel) {
@@ -108,8 +166,8 @@ Result<PanelSides, PointingRefusal> measured_panel(ImageView<const std::uint16_t
     return why == PointingRefusal::kEdgeUnsure ? PointingRefusal::kOneEdge : why;
   }
   if (!first) return first.error();
-  PanelSides panel{*first, *second, {}};
-  measure_ends(image, target, camera, outline, panel);
+  PanelSides panel{*first, *second, {}, {}, false};
+  measure_ends({image, target, camera, outline}, panel);
   return panel;
 }
 

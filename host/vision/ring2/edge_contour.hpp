@@ -47,6 +47,9 @@ std::vector<ContourPeaks> contour_peaks(const ring2::RigView& view, ImageView<co
 struct EdgeContour {
   /// The ellipse fitted to the edges, with their information; without edges, the expected ellipse with no information.
   ring2::Contour contour;
+  /// What its errors are, against the weight that its edges get by `contour.information`: an undisturbed contour is far
+  /// better than that, and one of which half is disturbed is not.
+  ring2::Matrix5 stated_information = ring2::Matrix5::Zero();
   double seen = 0.0;            ///< fraction of the contour within the image that has an edge at the ellipse
   double evidence = 0.0;        ///< log-likelihood ratio of the edges: circle against chance
   double evidence_limit = 0.0;  ///< its value if every profile had its edge

@@ -156,8 +156,8 @@ std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Setti
     if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kLast, hypothesis)) continue;
     auto estimate = ring2::solve_ring2(rig, hypothesis.contours);
     if (!estimate || estimate->unobservable != (hypothesis.has_nozzle ? 0 : ring2::kUnobservableNozzle)) continue;
-    if (const auto stated = ring2::solve_ring2(rig, hypothesis.stated)) {
-      (*estimate).covariance = covariance_about(stated->covariance, stated->tilt_axes, estimate->tilt_axes);
+    if (const auto cautious = ring2::solve_ring2(rig, hypothesis.cautious)) {
+      (*estimate).covariance = covariance_about(cautious->covariance, cautious->tilt_axes, estimate->tilt_axes);
     }
     const double rim = rim_evidence(rig, images, {estimate->ring_centre_m, estimate->normal, estimate->ring_radius_m});
     result.push_back({std::move(hypothesis), with_scatter(*estimate), rim});
@@ -165,11 +165,15 @@ std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Setti
   return result;
 }
 
-void take(const RingDecision& decision, Ring2Detection& answer) {
+void take(const ring2::Rig& rig, const RingDecision& decision, Ring2Detection& answer) {
   answer.contours = decision.best->hypothesis.contours;
   answer.edge_points = decision.best->hypothesis.edges;
   answer.estimate = decision.best->estimate;
   ring2::Ring2Estimate& estimate = *answer.estimate;
+  // Where contours disagree by more than they state, all are worse: with_scatter.
+  if (const auto stated = ring2::solve_ring2(rig, decision.best->hypothesis.stated)) {
+    estimate.covariance = covariance_about(with_scatter(*stated).covariance, stated->tilt_axes, estimate.tilt_axes);
+  }
   if (decision.rival != nullptr && !(estimate.second && estimate.second->delta_chi2 < decision.delta_chi2)) {
     const ring2::Ring2Estimate& rival = decision.rival->estimate;
     estimate.second = {rival.normal, rival.ring_centre_m, decision.delta_chi2};
@@ -191,7 +195,7 @@ Ring2Detection ring2_by_edges(const ring2::Rig& rig, const Ring2Settings& settin
       answer.refusal = kRingUnsure;
       return answer;
     }
-    take(decision, answer);
+    take(rig, decision, answer);
     answer.one_edge = settle_rims(rig, contours, *answer.estimate);
     return answer;
   }

@@ -21,9 +21,8 @@ struct Ring2Settings {
   ellipse::EllipseSettings ellipses{.min_minor_px = 12.0, .min_proposal_points = 70};
   /// Standard deviation of a detected ellipse's edge that more points do not reduce: lens, rim, light from one side.
   double systematic_px = 0.03;
-  /// The same for a contour that was measured where the model predicts it: shadows and other edges disturb different
-  /// parts of it in each view. With it, errors over 60 random bodies are 0.6 (attitude) and 0.9 (position) of the
-  /// sigmas.
+  /// The same for the weight of a contour that was measured where the model predicts it: shadows and other edges
+  /// disturb different parts of it in each view. What the answer states is less: see EdgeContour.
   double edge_systematic_px = 0.10;
   /// Known sizes of the target; they decide between circles but are not used in the fit.
   RingSizes sizes;

@@ -151,7 +151,7 @@ bool follow_edges(const ring2::Rig& rig, const Ring2Images& images, double syste
   const std::size_t end = rounds == FollowRounds::kFirst ? kFirstRounds : kRounds.size();
   for (std::size_t round = first; round < end; ++round) {
     const EdgeSearch& search = kRounds[round];
-    ContourSet contours, stated;
+    ContourSet contours, cautious, stated;
     hypothesis.evidence = hypothesis.nozzle_evidence = 0.0;
     hypothesis.evidence_limit = {};
     hypothesis.edges = 0;
@@ -169,13 +169,16 @@ bool follow_edges(const ring2::Rig& rig, const Ring2Images& images, double syste
         if (f == 1) hypothesis.nozzle_evidence += edge->evidence;
         if (!(edge->seen > (f == 1 && rounds == FollowRounds::kLast ? kMinSeenOfNozzle : kMinSeen))) continue;
         contours[v][f] = edge->contour;
-        stated[v][f] = with_disturbance(*edge);
+        cautious[v][f] = with_disturbance(*edge);
+        stated[v][f] = edge->contour;
+        stated[v][f]->information = edge->stated_information;
       }
     }
     const CircleProblem problem = problem_of(rig, contours, hypothesis.has_nozzle);
     const auto refined = ring2::refine(problem, model, std::numeric_limits<double>::infinity());
     if (!refined) return false;
     hypothesis.contours = contours;
+    hypothesis.cautious = cautious;
     hypothesis.stated = stated;
     model = refined->model;
   }

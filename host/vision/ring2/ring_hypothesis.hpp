@@ -19,7 +19,9 @@ inline constexpr double kMinNozzleDistance = 0.08;
 /// An assignment of circles in a pair of images to ring and nozzle.
 struct RingHypothesis {
   ring2::ContourSet contours;
-  /// The same contours with the information that disturbed ones have: their errors are larger than their weights say.
+  /// The same contours with less information where they are disturbed: what decides which hypothesis is the ring.
+  ring2::ContourSet cautious;
+  /// The same with what their errors are: what the answer states.
   ring2::ContourSet stated;
   ring2::CircleModel model;  ///< both circles; the second radius is 0 if there is no nozzle
   bool has_nozzle = false;

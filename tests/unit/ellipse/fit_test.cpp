@@ -60,6 +60,10 @@ TEST(Ellipse, DistanceIsSignedAndOfFirstOrder) {
   EXPECT_NEAR(distance_px(circle, {10.0, 50.5}), 0.5, 0.01);
   EXPECT_NEAR(distance_px(circle, {39.5, 20.0}), -0.5, 0.01);
   EXPECT_LT(distance_px(circle, {10.0, 20.0}), -20.0);
+  for (const PointPx p : {PointPx{10.0, 50.5}, {39.5, 20.0}, {300.0, 17.0}, {10.2, 20.1}, {10.0, 20.0}}) {
+    const double px = distance_px(circle, p);
+    EXPECT_NEAR(EllipseDistance(circle).squared_px2(p), px * px, 1e-9 * px * px);
+  }
   EXPECT_NEAR(EllipseDistance(circle).far_px({10.0, 56.0}), 6.0, 1e-9);
   EXPECT_NEAR(EllipseDistance(circle).far_px({10.0, 44.0}), -6.0, 1e-9);
 }
@@ -80,6 +84,51 @@ TEST(DirectFit, FindsTheEllipseOfExactPoints) {
     expect_near(*fit, truth, 1e-3);
     EXPECT_NEAR(std::remainder(fit->theta_rad - theta, std::numbers::pi), 0.0, 1e-4);
   }
+}
+
+// Algebraic error of a conic at unit scale about the points' mean, for 4 A C - B^2 = 1.
+double constrained_error(const Ellipse& e, const std::vector<PointF>& points) {
+  const auto count = static_cast<double>(points.size());
+  double u = 0.0, v = 0.0, squares = 0.0, error = 0.0;
+  for (const PointF& p : points) u += static_cast<double>(p.u) / count, v += static_cast<double>(p.v) / count;
+  for (const PointF& p : points) {
+    const double du = static_cast<double>(p.u) - u, dv = static_cast<double>(p.v) - v;
+    squares += du * du + dv * dv;
+  }
+  const double scale = std::sqrt(squares / count), a = e.a_px / scale, b = e.b_px / scale;
+  for (const PointF& p : points) {
+    const double du = (static_cast<double>(p.u) - e.cx_px) / scale, dv = (static_cast<double>(p.v) - e.cy_px) / scale;
+    const double x = std::cos(e.theta_rad) * du + std::sin(e.theta_rad) * dv;
+    const double y = std::cos(e.theta_rad) * dv - std::sin(e.theta_rad) * du;
+    const double f = 0.5 * a * b * (x * x / (a * a) + y * y / (b * b) - 1.0);
+    error += f * f;
+  }
+  return error;
+}
+
+// Whatever moves the fit of noisy arcs makes the error that it minimises larger.
+TEST(DirectFit, HasTheLeastConstrainedErrorOfNoisyArcs) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<float> noise(0.0F, 0.3F);
+  int fits = 0;
+  for (int k = 0; k < 40; ++k) {
+    std::vector<PointF> points = points_of(kTilted, 32, 0.15 * k, 0.15 * k + 1.2 + 0.1 * k);
+    for (PointF& p : points) p = {p.u + noise(random), p.v + noise(random)};
+    const auto fit = fit_direct(points);
+    if (!fit) continue;
+    ++fits;
+    const double least = constrained_error(*fit, points);
+    for (const double step : {-1e-3, 1e-3}) {
+      Ellipse moved[] = {*fit, *fit, *fit, *fit, *fit};
+      moved[0].cx_px += step * fit->a_px;
+      moved[1].cy_px += step * fit->a_px;
+      moved[2].a_px *= 1.0 + step;
+      moved[3].b_px *= 1.0 + step;
+      moved[4].theta_rad += step;
+      for (const Ellipse& other : moved) EXPECT_GT(constrained_error(other, points), least * (1.0 - 1e-9));
+    }
+  }
+  EXPECT_GT(fits, 35);
 }
 
 TEST(DirectFit, FarFromTheOriginAndSmallIsAsGood) {
