@@ -216,7 +216,7 @@ void Map::forget_removed(KeyframeId kept) {
   };
   keep(kept);
   for (const auto& [id, point] : points) {
-    for (const Patch& patch : point.patches) keep(patch.keyframe);
+    if (point.patch) keep(point.patch->keyframe);
   }
   std::erase_if(removed_, [&referenced](const auto& entry) { return !referenced.contains(entry.first); });
 }

@@ -44,8 +44,7 @@ struct MapPoint {
   std::int64_t visible = 1;       ///< frames in which it should be visible
   std::int64_t found = 1;         ///< frames in which it was found
   KeyframeId created_at = kNone;  ///< newest keyframe at its creation
-  /// For alignment in later frames. The first defines the position; the others are the same place seen from elsewhere.
-  std::vector<Patch> patches;
+  std::optional<Patch> patch;     ///< for alignment in later frames
 };
 
 /// Keyframes and points, each with the other's number. Not thread-safe: a caller that shares it must lock it.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/vision/slam/patch_alignment.hpp"
 #include "host/vision/slam/projection_match.hpp"
 
 namespace pharos::slam {
@@ -13,9 +12,6 @@ namespace {
 constexpr std::size_t kMinPoints = 100;
 constexpr std::size_t kFuseWith = 20, kFuseWithTheirs = 5;
 constexpr double kFuseRadius_px = 3.0;
-// A point that is seen from more than 10 deg beside all its patches gets another: alignment fails from 30 deg on, and
-// changes of light add up.
-constexpr double kCosSameView = 0.985;
 constexpr double kMinFoundFraction = 0.25;
 constexpr std::size_t kMinObservers = 3;
 // ORB-SLAM's is 0.9. A corner is measured to half a pixel in each keyframe: removing keyframes reduces accuracy (90 deg
@@ -85,23 +81,12 @@ void add_stereo_points(Map& map, KeyframeId id, const StereoCamera& camera) {
 
 void add_patches(Map& map, KeyframeId id, const std::vector<PyramidLevel>& pyramid) {
   Keyframe& keyframe = map.keyframes.at(id);
-  const Vector3 eye = keyframe.pose.inverse().t;
   for (std::size_t k = 0; k < keyframe.points.size(); ++k) {
     if (keyframe.points[k] == kNone) continue;
     MapPoint& point = map.points.at(keyframe.points[k]);
-    Feature& feature = keyframe.features[k];
-    const Vector3 sight = (point.position_m - eye).normalized();
-    const bool first = point.patches.empty();
-    if (!first && (feature.is_corner() || sight.dot(nearest_view(point, eye)->sight) > kCosSameView)) continue;
-    auto patch = cut_patch(id, feature, pyramid);
-    if (!patch) continue;
-    patch->sight = sight;
-    if (first) {
-      feature.sigma_px = kPatchSigma_px;
-    } else {
-      patch->sigma_px = feature.sigma_px;
-    }
-    point.patches.push_back(*patch);
+    if (point.patch) continue;
+    point.patch = cut_patch(id, keyframe.features[k], pyramid);
+    if (point.patch) keyframe.features[k].sigma_px = kPatchSigma_px;
   }
 }
 

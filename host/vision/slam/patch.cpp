@@ -182,8 +182,7 @@ std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camer
   // Along the direction of the smaller gradient.
   const double variance = static_cast<double>(residual_variance / spare / slopes);
   return FoundPatch{feature.pixel + scale * off.head<2>().cast<double>(),
-                    std::min(kCornerSigma_px,
-                             std::sqrt(kPatchSigma_px * kPatchSigma_px + variance + patch.sigma_px * patch.sigma_px))};
+                    std::min(kCornerSigma_px, std::sqrt(kPatchSigma_px * kPatchSigma_px + variance))};
 }
 
 }  // namespace pharos::slam

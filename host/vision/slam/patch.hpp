@@ -23,10 +23,6 @@ struct Patch {
   double disparity_px = 0.0;
   Vector2 disparity_slope = Vector2::Zero();
   Vector2 off_middle_px = Vector2::Zero();  ///< of the feature from the centre of the central pixel, on the level
-  /// 1 sigma of its centre about the position of the point that an earlier patch defines, px of the level; 0: the
-  /// first.
-  double sigma_px = 0.0;
-  Vector3 sight = Vector3::Zero();  ///< unit, in the target's frame: the direction from which it was seen
   std::array<std::uint8_t, kSide_px * kSide_px> pixels{};
 };
 
@@ -38,8 +34,7 @@ inline constexpr double kPatchSigma_px = 0.1;
 
 struct FoundPatch {
   Vector2 pixel = Vector2::Zero();
-  /// Px of its level, including the part from the fit's residuals and the patch's own.
-  double sigma_px = kPatchSigma_px;
+  double sigma_px = kPatchSigma_px;  ///< px of its level, including the part from the fit's residuals
 };
 
 /// Position of the patch in the image: its warped pixels are aligned by Gauss-Newton over position, contrast and

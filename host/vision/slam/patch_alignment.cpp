@@ -1,34 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/slam/patch_alignment.hpp"
 
-#include <algorithm>
-#include <map>
-
 namespace pharos::slam {
-
-const Patch* nearest_view(const MapPoint& point, const Vector3& eye_m) {
-  const Vector3 sight = (point.position_m - eye_m).normalized();
-  const auto best = std::max_element(point.patches.begin(), point.patches.end(), [&](const Patch& a, const Patch& b) {
-    return a.sight.dot(sight) < b.sight.dot(sight);
-  });
-  return best == point.patches.end() ? nullptr : &*best;
-}
 
 void align_with_patches(Frame& frame, const Map& map, const StereoCamera& camera, const CameraFromTarget& pose,
                         const std::vector<PyramidLevel>& pyramid) {
   if (pyramid.empty()) return;
-  std::map<KeyframeId, Pose<frame::Camera, frame::Camera>> T_frame_keyframe;
-  const Vector3 eye = pose.inverse().t;
+  KeyframeId of = kNone;
+  Pose<frame::Camera, frame::Camera> T_frame_keyframe;
   for (std::size_t k = 0; k < frame.points.size(); ++k) {
     const MapPoint* point = map.find_point(frame.points[k]);
-    const Patch* patch = point == nullptr ? nullptr : nearest_view(*point, eye);
-    if (patch == nullptr) continue;
-    auto at = T_frame_keyframe.find(patch->keyframe);
-    if (at == T_frame_keyframe.end()) {
-      at = T_frame_keyframe.emplace(patch->keyframe, pose * map.pose_of(patch->keyframe).inverse()).first;
+    if (point == nullptr || !point->patch) continue;
+    if (point->patch->keyframe != of) {
+      of = point->patch->keyframe;
+      T_frame_keyframe = pose * map.pose_of(of).inverse();
     }
     Feature& feature = frame.features[k];
-    const auto found = find_patch(*patch, at->second, camera, feature, pyramid);
+    const auto found = find_patch(*point->patch, T_frame_keyframe, camera, feature, pyramid);
     if (!found) continue;
     const Vector2 move = found->pixel - feature.pixel;
     feature.pixel = found->pixel;

@@ -8,10 +8,6 @@
 
 namespace pharos::slam {
 
-/// The patch of the point that was cut from the direction nearest to that of `eye_m`, in the target's frame; null
-/// without patches.
-const Patch* nearest_view(const MapPoint& point, const Vector3& eye_m);
-
 /// Moves features with map points to the aligned positions of the points' patches in `pyramid`, of the frame's left
 /// image, for a camera near `pose`; adapts their right columns and depths. With an empty pyramid nothing changes.
 void align_with_patches(Frame& frame, const Map& map, const StereoCamera& camera, const CameraFromTarget& pose,

@@ -112,15 +112,15 @@ TEST_F(MapOfTurns, ARemovedKeyframeIsAsUncertainAsItsPathWasLong) {
 // Data that must not grow in an endless run.
 TEST_F(MapOfTurns, RemovedKeyframesWithoutReferencesAreErased) {
   for (const KeyframeId id : {3, 4, 5}) map_.remove_keyframe(id);
-  map_.points.at(ids_[0]).patches.push_back(Patch{});
-  map_.points.at(ids_[0]).patches.front().keyframe = 5;
+  map_.points.at(ids_[0]).patch = Patch{};
+  map_.points.at(ids_[0]).patch->keyframe = 5;
   const CameraFromTarget of_patch = map_.pose_of(5), of_tracker = map_.pose_of(3);
   EXPECT_EQ(map_.removed(), 3U);
   map_.forget_removed(3);
   EXPECT_EQ(map_.pose_of(5).R, of_patch.R);
   EXPECT_EQ(map_.pose_of(3).R, of_tracker.R);
   EXPECT_LE(map_.removed(), 3U);
-  map_.points.at(ids_[0]).patches.clear();
+  map_.points.at(ids_[0]).patch.reset();
   map_.forget_removed(7);
   EXPECT_EQ(map_.removed(), 0U);
 }

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "host/vision/slam/mapping.hpp"
-#include "host/vision/slam/patch_alignment.hpp"
 #include "simulated_wall.hpp"
 
 namespace pharos::slam {
@@ -46,34 +44,6 @@ TEST_F(PatchOfAWall, OtherLightIsTheSamePatch) {
   const double error = error_px(later, 0.1, {-0.4, 0.4});
   EXPECT_GE(error, 0.0);
   EXPECT_LT(error, 0.05);
-}
-
-// The first patch is not found in the last view any more; those of the keyframes between are of the same place.
-TEST_F(PatchOfAWall, IsFollowedByTheViewsBetween) {
-  constexpr double kTurn_rad = 0.11;
-  constexpr int kViews = 9;
-  const Vector3 place = wall_.hit(here_, pixel_);
-  Map map;
-  for (int k = 0; k < kViews; ++k) {
-    Frame frame;
-    frame.pose = turned_pose(-k * kTurn_rad);
-    const Vector2 truth = kCamera.project(frame.pose * place).head<2>();
-    const auto image = wall_.seen(frame.pose);
-    frame.features.push_back(wall_.feature(frame.pose, k == 0 ? truth : truth + Vector2(0.4, -0.3)));
-    frame.points.assign(1, k == 0 ? kNone : map.points.begin()->first);
-    if (k > 0) align_with_patches(frame, map, kCamera, frame.pose, pyramid_of(image));
-    const KeyframeId id = map.add_keyframe(frame, {}).id;
-    if (k == 0) map.add_point(place, id, 0);
-    add_patches(map, id, pyramid_of(image));
-    const Feature& seen = map.keyframes.at(id).features.front();
-    EXPECT_FALSE(seen.is_corner()) << k;
-    EXPECT_LT((seen.pixel - truth).norm(), 0.1) << k;
-    EXPECT_LT((seen.pixel - truth).norm(), 2.0 * seen.sigma_px) << k;
-  }
-  EXPECT_LT(error_px(wall_, -(kViews - 1) * kTurn_rad, {0.4, -0.3}), 0.0) << "it needs no help";
-  const MapPoint& point = map.points.begin()->second;
-  EXPECT_LT(point.patches.size(), 8U);
-  EXPECT_EQ(nearest_view(point, here_.inverse().t), &point.patches.front());
 }
 
 TEST_F(PatchOfAWall, WhatIsElsewhereAslantOrUnlikeIsNotFound) {
