@@ -111,7 +111,8 @@ TEST(PositionComparison, OfABodyAtRestOnlyTheSpreadCounts) {
   std::mt19937 random(6);
   std::normal_distribution<double> noise(0.0, 0.001);
   for (int i = 0; i < 1000; ++i) {
-    pair.estimate.samples.push_back({5.0 + 0.01 * i, Vector3(1 + noise(random), noise(random), noise(random)), {}, {}, {}});
+    pair.estimate.samples.push_back(
+        {5.0 + 0.01 * i, Vector3(1 + noise(random), noise(random), noise(random)), {}, {}, {}});
     pair.truth.samples.push_back({100.0 + 0.01 * i, Vector3(4, 5, 6), {}, {}, {}});
   }
   const PositionComparison c = compare_positions(pair.estimate, pair.truth, {});
