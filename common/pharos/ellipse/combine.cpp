@@ -128,8 +128,8 @@ class Combiner {
       }
     }
     const double length = one.points() + other.points();
-    const double least_px = kMinPerimeter * (std::sqrt(static_cast<double>(squared)) - kMaxOff_px);
-    return length > best_.back().rank * least_px;
+    const double min_px = kMinPerimeter * (std::sqrt(static_cast<double>(squared)) - kMaxOff_px);
+    return length > best_.back().rank * min_px;
   }
 
   // The fit to one arc or two, kept among the best. An arc may continue past its ellipse at its ends (a rounded

@@ -111,7 +111,7 @@ double positive_root(double b, double c, double d) {
 // The quadratic part (A, B, C) with the least scatter for 4 A C - B^2 = 1, but for its size: C q = mu S q with the
 // positive mu, of which there is one. With S = L L^T it is an eigenvector of L^-1 C L^-T, which is
 // (0, 0, r; 0, -s, t; r, t, z). Empty where S is not positive definite.
-std::optional<Vector3> least_scatter(const Scatter& m) {
+std::optional<Vector3> quadratic_of_min_scatter(const Scatter& m) {
   if (!(m.s00 > 0.0)) return std::nullopt;
   const double w00 = 1.0 / std::sqrt(m.s00), l10 = m.s10 * w00, l20 = m.s20 * w00;
   const double second = m.s11 - l10 * l10;
@@ -158,7 +158,7 @@ std::optional<Ellipse> fit_direct(std::span<const PointF> points) {
   moments.normalise();
   const std::optional<Elimination> elimination = elimination_of(moments);
   if (!elimination) return std::nullopt;
-  std::optional<Vector3> quadratic = least_scatter(scatter_of(moments, *elimination));
+  std::optional<Vector3> quadratic = quadratic_of_min_scatter(scatter_of(moments, *elimination));
   if (!quadratic) return std::nullopt;
   if (quadratic->x + quadratic->z < 0.0) quadratic = {-quadratic->x, -quadratic->y, -quadratic->z};
   std::optional<Ellipse> ellipse = ellipse_of(*quadratic, elimination->linear(*quadratic));

@@ -31,7 +31,7 @@ struct PanelSides {
   Side first, second;
   std::vector<Side> ends;         ///< from one side to the other
   std::vector<Side> corner_ends;  ///< that begin at a corner of one side and are hidden before the other
-  bool has_unknown_end = false;  ///< a side goes on to a corner, and the border cuts the edge there
+  bool has_unknown_end = false;   ///< a side goes on to a corner, and the border cuts the edge there
 };
 
 /// Whether another face shows beyond one of the long sides: the pair is a body's, or a panel before one.

@@ -31,9 +31,9 @@ void expect_no_failure(const std::string& name, std::initializer_list<std::uint6
 // a body of which dark foil interrupts the outline, as a wing, and as a panel with an edge in line; two faces of alike
 // light with one end; a piece of an end for a side, seen along the axis.
 TEST(IntegritySeeds, Line) {
-  expect_no_failure("line", {62,     108,    220,    244,    1039,   1251,   1430,   1446,   3378,   60259,
-                             60665,  60891,  61369,  200023, 200314, 300074, 300237, 400097, 430006, 432141,
-                             432378, 450045, 450232, 450280, 450365, 460048, 460270, 462197, 463120, 464076, 464150, 464207, 464491});
+  expect_no_failure("line", {62,     108,    220,    244,    1039,   1251,   1430,   1446,   3378,   60259,  60665,
+                             60891,  61369,  200023, 200314, 300074, 300237, 400097, 430006, 432141, 432378, 450045,
+                             450232, 450280, 450365, 460048, 460270, 462197, 463120, 464076, 464150, 464207, 464491});
 }
 
 // Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them.
