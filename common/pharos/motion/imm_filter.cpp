@@ -47,8 +47,10 @@ constexpr double kLostRotation_rad = 0.5, kLostPosition_m = 0.5;
 constexpr double kMaxFilterStep_s = 0.05;
 // Smaller fractions are not mixed; less probable models are not corrected, but restarted from the others.
 constexpr double kNegligible = 1e-3;
-// No model becomes less probable; one that is no more probable than this is not part of the mixture.
-constexpr double kMinProbability = 1e-9;
+// No model becomes less probable. One that is hardly more probable is no part of the mixture of a steady body: the
+// static model, whose covariance hardly lets it follow a body that moves on, runs away by kilometres in a second. Of a
+// shaken body all models are, as its gates have room for a hand.
+constexpr double kMinProbability = 1e-9, kMinCounted = 1e-8, kShaken = 0.3;
 
 template <class Parent, class Child>
 Vector6 small_difference(const Pose<Parent, Child>& to, const Pose<Parent, Child>& from) {
@@ -151,16 +153,6 @@ bool ImmFilter::lost(std::size_t m) const {
   return (apart.array() > kAstray * allowed.array()).any();
 }
 
-// The body moved on from the static model, whose covariance hardly lets it follow: linearised ever further from where
-// it is, its pose runs away by kilometres in a second.
-bool ImmFilter::resting_is_astray() const {
-  const std::size_t top = most_probable();
-  if (top == 0) return false;
-  const LighthouseFromBody& there = moving_[top - 1].pose;
-  return (resting_.pose.t - there.t).squaredNorm() > kLostPosition_m * kLostPosition_m ||
-         (resting_.pose.R - there.R).squaredNorm() > 2.0 * kLostRotation_rad * kLostRotation_rad;  // of small angles
-}
-
 void ImmFilter::interact(double dt_s) {
   const double dt = std::min(dt_s, kMaxFilterStep_s);
   Flow flow;  // probability of having gone from i to j
@@ -174,10 +166,6 @@ void ImmFilter::interact(double dt_s) {
     }
     flow[i][i] = probability_[i] * stays;
     for (std::size_t j = 0; j < kModels; ++j) next[j] += flow[i][j];
-  }
-  if (resting_is_astray()) {
-    const MovingState& there = moving_[most_probable() - 1];
-    resting_ = {there.pose, there.pp, {there.second.pose, there.second.ss, there.second.sp}};
   }
   for (std::size_t m = 0; m < kMoving; ++m) {
     if (!lost(m)) continue;
@@ -281,19 +269,21 @@ StateEstimate ImmFilter::state_estimate(Observer observer) const {
   std::array<Seen, kModels> of;
   Vector6 mean = Vector6::Zero();
   std::array<Vector6, kModels> away;
+  const double min_counted =
+      probability_[kMoving] + probability_[kMoving - 1] < kShaken ? kMinCounted : kMinProbability;
   // The one of highest process noise is always included: gates need it.
   for (std::size_t i = 0; i < kModels; ++i) {
-    if (probability_[i] > kMinProbability || i == kMoving) of[i] = seen(i, observer);
+    if (probability_[i] >= min_counted || i == kMoving) of[i] = seen(i, observer);
   }
   for (std::size_t i = 0; i < kModels; ++i) {
-    if (probability_[i] <= kMinProbability) continue;
+    if (probability_[i] < min_counted) continue;
     away[i] = i == top ? Vector6(Vector6::Zero()) : small_difference(of[i].pose, of[top].pose);
     mean += probability_[i] * away[i];
     if (i > 0) b.rate += probability_[i] * moving_[i - 1].rate;
   }
   b.pose = of[top].pose.moved_by(mean);
   for (std::size_t i = 0; i < kModels; ++i) {
-    if (probability_[i] <= kMinProbability) continue;
+    if (probability_[i] < min_counted) continue;
     const Vector6 e = away[i] - mean;
     b.covariance += probability_[i] * (of[i].covariance + e.lazyProduct(e.transpose()));
     Vector6 variance = b.rate.cwiseAbs2();

@@ -66,7 +66,6 @@ class ImmFilter {
   template <class State>
   void correct_one(State& state, const SweepInformation& sweep, const Innovation& innovation, Observer observer);
   bool lost(std::size_t moving) const;
-  bool resting_is_astray() const;
   void interact(double dt_s);
 
   RestingState resting_;
