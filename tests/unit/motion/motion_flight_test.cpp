@@ -134,7 +134,7 @@ TEST(MotionFlight, ARestartInFlightCostsTheDarknessAndNoMore) {
   sim::LighthouseScenario scenario = test::manoeuvre(9.0, 0.5, 60.0, 6);
   scenario.faults.restarts = {{0, 4.0, 1.5}};
   FlightScore all, settled;
-  double last_before_s = 0.0, first_after_s = 0.0, most_sigmas = 0.0;
+  double last_before_s = 0.0, first_after_s = 0.0, max_sigmas = 0.0;
   test::fly(scenario, 6, [&](const FlightSample& answer) {
     all.add(answer);
     const double time_s = answer.time_s - 1.0;  // the counter starts at one second
@@ -143,7 +143,7 @@ TEST(MotionFlight, ARestartInFlightCostsTheDarknessAndNoMore) {
     if (time_s > 5.5 && first_after_s == 0.0) first_after_s = time_s;
     if (first_after_s == 0.0 || time_s > first_after_s + 0.1) settled.add(answer);
     const double variance = answer.result->pose.value().covariance.bottomRightCorner<3, 3>().trace();
-    most_sigmas = std::max(most_sigmas, answer.position_mm() / 1e3 / std::sqrt(variance));
+    max_sigmas = std::max(max_sigmas, answer.position_mm() / 1e3 / std::sqrt(variance));
   });
   EXPECT_GT(last_before_s, 3.9);
   EXPECT_GT(first_after_s, 5.5);
@@ -151,7 +151,7 @@ TEST(MotionFlight, ARestartInFlightCostsTheDarknessAndNoMore) {
   EXPECT_GT(all.answers, 750);
   EXPECT_LT(settled.position_max_mm, 10.0);
   // The first tenth of a second knows it to a centimetre (sum of three sigmas squared), and says so.
-  EXPECT_LT(most_sigmas, 3.0);
+  EXPECT_LT(max_sigmas, 3.0);
   EXPECT_LT(all.nees_per_freedom(), 1.2);
 }
 
