@@ -78,7 +78,11 @@ struct EndSearch {
     const Segment guess{side.extent.end, other.extent.begin};
     if (guess.length() < 4.0) return;
     const Segment* seen = edge_along(guess, outline);
-    if (add(seen != nullptr ? *seen : guess, reach_px, kMinSeenFraction * guess.length(), panel.ends)) return;
+    const auto whole_end = measured_side(image, target, camera, seen != nullptr ? *seen : guess, reach_px);
+    if (whole_end && !whole_end->cut && whole_end->fit.length_px() >= kMinSeenFraction * guess.length()) {
+      panel.ends.push_back(*whole_end);
+      return;
+    }
     // Something hides the end, or the sides are of two things. Where one of them goes on to a corner, the edge there
     // is the end.
     const double min_length = std::max(kMinCornerEdge_px, kMinCornerEdge * guess.length());
@@ -104,13 +108,6 @@ struct EndSearch {
         whole.end = edge.end;
     }
     return whole;
-  }
-
-  bool add(const Segment& edge, double reach_px, double min_length_px, std::vector<Side>& ends) const {
-    const auto end = measured_side(image, target, camera, edge, reach_px);
-    if (!end || end->cut || end->fit.length_px() < min_length_px) return false;
-    ends.push_back(*end);
-    return true;
   }
 };
 
