@@ -13,7 +13,6 @@ constexpr int kJudged = 12;                // before that fraction says somethin
 constexpr int kScatteredRun = 3;           // gated poses that contradict each other: no motion does that
 constexpr double kAlone_s = 1.0;           // after which the only source is followed
 constexpr double kPoor = 1.0 / 6.0;        // sigma over the largest level
-constexpr double kSlack = 0.02;            // of the other solution's covariance: rounding, and gates that differ
 
 }  // namespace
 
@@ -111,23 +110,24 @@ bool FusionCore::source_is_alone(const FusionState& state, std::uint8_t source) 
   return !state.without[source].valid() || !state.without[source].complete();
 }
 
-// d^T (P_i - P)^-1 d: the covariance of the difference of two solutions of which one uses a part of the other's
-// measurements (Blanch et al. 2015, equation 10). 0 where it says nothing.
+// 0 where it says nothing.
 double FusionCore::separation(const FusionState& state, std::size_t source, bool rotation) const {
   const Filter& other = state.without[source];
   if (!state.monitors[source].contributed || !other.valid() || !other.complete()) return 0.0;
   const int at = rotation ? 0 : 3;
-  const Vector6 apart = pose_difference(state.main.mean().pose, other.mean().pose);
+  const Vector3 d = pose_difference(state.main.mean().pose, other.mean().pose).segment<3>(at);
   const Matrix3 P_other = other.pose_covariance().block<3, 3>(at, at);
   // A solution that poor bounds nothing, and is too wide for a linear difference.
   const double largest = rotation ? settings_.integrity.max_rotation_rad : settings_.integrity.max_position_m;
   if (P_other.trace() > kPoor * kPoor * largest * largest) return 0.0;
+  // Never below separation_chi2(), and cheaper; where it suspects nothing the other does not either.
   const Matrix3 P = state.main.pose_covariance().block<3, 3>(at, at);
-  const Matrix3 difference = P_other * (1.0 + kSlack) - P;
-  const Eigen::LDLT<Matrix3> factor(difference);
-  if (factor.info() != Eigen::Success || !factor.isPositive()) return 0.0;
-  const Vector3 d = apart.segment<3>(at);
-  return d.dot(factor.solve(d));
+  const Eigen::LDLT<Matrix3> factor(P_other * (1.0 + kSeparationSlack) - P);
+  if (factor.info() == Eigen::Success && factor.isPositive()) {
+    const double chi2 = d.dot(factor.solve(d));
+    if (chi2 < kSuspicious * separation_threshold_) return chi2;
+  }
+  return separation_chi2(d, P_other, P);
 }
 
 // How badly the measurements of all other sources fit the solution without one: what a fault of another source leaves.

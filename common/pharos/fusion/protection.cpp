@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pharos/fusion/chi_squared.hpp"
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::fusion {
 namespace {
@@ -49,6 +50,18 @@ void widen(ProtectionLevel& level, const Filter& main, const Filter& other, doub
   const LargestSigma sigma = largest_sigma(other.pose_covariance());
   level.rotation_rad = std::max(level.rotation_rad, apart.head<3>().norm() + factor * sigma.rotation_rad);
   level.position_m = std::max(level.position_m, apart.tail<3>().norm() + factor * sigma.position_m);
+}
+
+// In the axes in which P_i is one and P is diagonal.
+double separation_chi2(const Vector3& d, const Matrix3& P_i, const Matrix3& P) {
+  const SymmetricEigen<3> smaller = symmetric_eigen<3>(P_i);
+  if (!(smaller.values[0] > 0.0)) return 0.0;
+  const Matrix3 whitening = smaller.vectors * smaller.values.cwiseSqrt().cwiseInverse().asDiagonal();
+  const SymmetricEigen<3> all = symmetric_eigen<3>(Matrix3(whitening.transpose() * P * whitening));
+  const Vector3 along = all.vectors.transpose() * (whitening.transpose() * d);
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) sum += along[i] * along[i] / (std::max(1.0 - all.values[i], 0.0) + kSeparationSlack);
+  return sum;
 }
 
 }  // namespace pharos::fusion

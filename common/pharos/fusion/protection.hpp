@@ -38,4 +38,14 @@ LargestSigma largest_sigma(const Matrix6& pose_covariance);
 /// the measurement; here d is known).
 void widen(ProtectionLevel& level, const Filter& main, const Filter& other, double factor);
 
+/// In no direction a variance of the difference of two solutions below this part of the wider one's is believed:
+/// rounding, and gates that differ.
+inline constexpr double kSeparationSlack = 0.02;
+
+/// d^T (P_i - P)^-1 d: the squared difference of two solutions of which the first uses a part of the other's
+/// measurements, in its own sigmas; chi-squared of three degrees of freedom without a fault (Blanch et al. 2015,
+/// equation 10). `P_i`: the smaller set's covariance; `P`: that of all. Where the left out source tells next to nothing
+/// of a direction P is the larger one as often as not; kSeparationSlack holds there.
+double separation_chi2(const Vector3& d, const Matrix3& P_i, const Matrix3& P);
+
 }  // namespace pharos::fusion

@@ -146,5 +146,29 @@ TEST(Protection, TakesMoreSigmasForASmallerRiskAndForMoreFaults) {
   EXPECT_EQ(protection_factors(settings).without[0], 0.0);
 }
 
+// Of two solutions that are alike in a direction neither is the surer one but by rounding: the 2 % by which P may
+// exceed P_i there is no variance of the difference.
+TEST(SolutionSeparation, AlikeSolutionsAreNotTornApartByRounding) {
+  const Matrix3 turn = rotation_exp({0.4, -0.3, 0.8});
+  const auto turned = [&](const Vector3& variances) {
+    return Matrix3(turn * variances.asDiagonal() * turn.transpose());
+  };
+  const Matrix3 P_i = turned({1e-8, 4e-8, 9e-6});
+  const Vector3 a_third_of_a_sigma = turn * Vector3(3.3e-5, 0.0, 0.0);
+  for (const double ratio : {1.0, 1.01, 1.0199999, 1.02, 1.1}) {
+    const double chi2 = separation_chi2(a_third_of_a_sigma, P_i, turned({ratio * 1e-8, 1e-8, 1e-7}));
+    EXPECT_NEAR(chi2, 0.33 * 0.33 / 0.02, 1e-6) << ratio;
+  }
+}
+
+// Where the source does tell something the difference has the variance that it should.
+TEST(SolutionSeparation, IsTheDifferenceInItsOwnSigmas) {
+  const Matrix3 P_i = Vector3(4e-6, 9e-6, 1e-6).asDiagonal();
+  const Matrix3 P = Vector3(1e-6, 1e-6, 5e-7).asDiagonal();
+  const Vector3 d(2e-3, -3e-3, 1e-3);
+  EXPECT_NEAR(separation_chi2(d, P_i, P), 1.0 / 0.77 + 1.0 / (8.0 / 9.0 + 0.02) + 1.0 / 0.52, 1e-9);
+  EXPECT_EQ(separation_chi2(d, Matrix3::Zero(), P), 0.0);
+}
+
 }  // namespace
 }  // namespace pharos::fusion
