@@ -83,6 +83,7 @@ fusion::SourceSettings source_settings(const SourceMounting& mounting, const Fus
   out.T_vehicle_sensor = {sensor.R, sensor.t};
   out.bias_time_constant_s = choices.bias_time_s;
   out.time_sigma_s = mounting.time_offset_sigma_s;
+  out.noise_time_s = mounting.noise_time_s;
   out.faults_per_hour.fill(choices.faults_per_hour);
   const auto feature = mounting.target_from_feature();
   if (!feature) {

@@ -90,6 +90,8 @@ struct SourceMounting {
   MountingOrigin time_offset_origin = MountingOrigin::kPrior;
   /// 1 sigma of the source's unit of length, as a ratio: its positions are true * (1 + e).
   double scale_sigma = 0.0;
+  /// For how long the noise of its poses is alike, s: of a source that filters. 0: each pose has its own.
+  double noise_time_s = 0.0;
   /// Empty: not known.
   std::optional<SlowError> slow_error;
   /// What the calibration could not tell, as text; these directions are at their prior.

@@ -20,6 +20,8 @@ constexpr double kLengthTolerance = 1e-3;
 // Of two clocks that nobody set: more is an epoch that differs, not a delay.
 constexpr Range kTimeOffset_s{-1e5, 1e5};
 constexpr Range kTimeSigma_s{0.0, 1e5};
+// A source whose poses are alike for longer has a slow error.
+constexpr Range kNoiseTime_s{0.0, 10.0};
 constexpr Range kScaleSigma{0.0, 1.0};
 // Beyond a hundred times its noise a source needs another covariance, not a slow error.
 constexpr Range kSlowRatio{0.0, 100.0};
@@ -99,6 +101,7 @@ SourceMounting read_source(const TomlTable& table) {
   source.kind = *source_kind(table.choice("kind", {"lighthouse", "tof", "ring2", "slam"}));
   read_time_offset(table, source);
   source.scale_sigma = table.number_or("scale_sigma", 0.0, kScaleSigma);
+  source.noise_time_s = table.number_or("noise_time_s", 0.0, kNoiseTime_s);
   source.slow_error = read_slow_error(table);
   source.unobservable = table.texts("unobservable");
   source.T_vehicle_sensor = read_pose(table.table("T_vehicle_sensor"));
@@ -151,6 +154,7 @@ std::string source_text(const SourceMounting& source) {
   out += "time_offset_s = " + exact_number(source.time_offset_s) + "\n";
   out += "time_offset_sigma_s = " + exact_number(source.time_offset_sigma_s) + "\n";
   out += "time_offset_origin = \"" + std::string(word_of(source.time_offset_origin)) + "\"\n";
+  if (source.noise_time_s != 0.0) out += "noise_time_s = " + exact_number(source.noise_time_s) + "\n";
   if (source.scale_sigma != 0.0) out += "scale_sigma = " + exact_number(source.scale_sigma) + "\n";
   if (!source.unobservable.empty()) out += "unobservable = " + toml_strings(source.unobservable) + "\n";
   if (!source.cross_covariance.isZero(0.0)) out += matrix_text("cross_covariance", source.cross_covariance);

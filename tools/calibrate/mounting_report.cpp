@@ -69,6 +69,10 @@ std::vector<std::string> messages_of(const MountingCalibration& c) {
     if (c.fits[i].chi2_per_freedom > 1.0) {
       out.push_back(source.name + ": its residuals exceed the covariances that it states, which were enlarged by that");
     }
+    if (source.noise_time_s > 0.0) {
+      out.push_back(printf_text("%s: the noise of its poses is alike for %.2f s, so that they count as fewer",
+                                source.name.c_str(), source.noise_time_s));
+    }
     for (const std::string& direction : source.unobservable) {
       out.push_back(source.name + ": not told by this recording, left at its prior: " + direction);
     }

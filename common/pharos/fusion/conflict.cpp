@@ -71,7 +71,8 @@ Use FusionCore::track_in_conflict(FusionState& state, const Measurement& raw) co
   monitor.nis = in.nis;
   monitor.rank = in.rank;
   if (in.ok && in.nis < gate(in.rank)) {
-    side.correct(in, m.source, settings_);
+    side.correct(side.innovation(own.as_one_of_many(), settings_, side.second_fits_better(own, settings_)), m.source,
+                 settings_);
     monitor.gated_run = 0;
   } else {
     if (monitor.gated_run == 0) monitor.gated_since_ns = m.time_ns;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pharos/base/noise_correlation.hpp"
 #include "pharos/fusion/chi_squared.hpp"
 #include "pharos/fusion/source_view.hpp"
 #include "pharos/geometry/symmetric.hpp"
@@ -67,6 +68,8 @@ bool FusionCore::is_lost(const FusionState& state) const {
 Use FusionCore::push(FusionState& state, const Measurement& m) const {
   SourceMonitor& monitor = state.monitors[m.source];
   const bool repeated = monitor.repeats_pose(m.pose);
+  const double step_s = monitor.seen ? seconds(m.time_ns, monitor.last_ns) : 0.0;
+  monitor.correlation = static_cast<float>(noise_correlation(settings_.sources[m.source].noise_time_s, step_s));
   monitor.seen = true;
   monitor.last_ns = m.time_ns;
   // A gap that no prediction bridges: without this, a wrong clock would cost one step per 50 ms of it.
@@ -127,8 +130,10 @@ Use FusionCore::track(FusionState& state, const Measurement& raw) const {
 TargetMeasurement FusionCore::view(const FusionState& state, const Measurement& raw,
                                    const TargetPose* reference) const {
   const SourceSettings& source = settings_.sources[raw.source];
-  return to_target(raw, source, source.relative ? state.T_target_feature[raw.source] : source.T_target_feature,
-                   reference);
+  TargetMeasurement out =
+      to_target(raw, source, source.relative ? state.T_target_feature[raw.source] : source.T_target_feature, reference);
+  out.correlation = static_cast<double>(state.monitors[raw.source].correlation);
+  return out;
 }
 
 // Of a relative source: where its first pose says, so that its bias begins at zero.
@@ -176,10 +181,14 @@ Use FusionCore::use_or_gate(FusionState& state, const Measurement& raw) const {
     for (std::size_t k = 0; k < settings_.sources.size(); ++k) {
       Filter& filter = state.without[k];
       if (k == m.source || !filter.valid() || (source.relative && !filter.aligned(m.source))) continue;
-      state.innovation_means[k][m.source].add(filter.innovation(m, settings_, second), m.time_ns);
+      state.innovation_means[k][m.source].add(filter.innovation(m.as_one_of_many(), settings_, second), m.time_ns);
     }
     examine_gated(state, m, in);
     return Use::kGated;
+  }
+  if (m.correlation > 1.0) {
+    m = m.as_one_of_many();
+    in = state.main.innovation(m, settings_, second);
   }
   correct_main(state, m, in, second);
   for (std::size_t k = 0; k < settings_.sources.size(); ++k) {

@@ -84,6 +84,12 @@ TargetMeasurement TargetMeasurement::chosen(bool second_pose) const {
   return out;
 }
 
+TargetMeasurement TargetMeasurement::as_one_of_many() const {
+  TargetMeasurement out = *this;
+  out.covariance *= correlation;
+  return out;
+}
+
 Refusal check_measurement(const Measurement& m, std::size_t sources) {
   if (m.source >= sources) return Refusal::kUnknownSource;
   if (!usable(m.pose) || !m.covariance.allFinite()) return Refusal::kNotFinite;

@@ -51,9 +51,14 @@ struct TargetMeasurement {
   Matrix6 covariance = Matrix6::Identity();
   Directions directions;
   std::optional<TargetPose> second;
+  /// Variance of the mean of many such measurements over that of independent ones; >= 1.
+  double correlation = 1.0;
 
   /// With the second pose alone, or with the first.
   TargetMeasurement chosen(bool second_pose) const;
+  /// With the weight that it has among its neighbours, whose noise is alike: gates judge it by what it states, a filter
+  /// that takes noise as independent averages many of these rightly.
+  TargetMeasurement as_one_of_many() const;
 };
 
 /// Why a measurement never reached the filter.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/fusion/proof.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pharos/fusion/chi_squared.hpp"
@@ -48,7 +49,7 @@ bool Proof::is_sound(const Innovation& last, const TargetMeasurement& m) const {
   if (!(scatter < scatter_dof * (1.0 + 3.0 * std::sqrt(2.0 / scatter_dof)))) return false;
   const Matrix6 S = Matrix6(last.factor.lazyProduct(last.factor.transpose()));
   const Matrix6 noise = Matrix6(m.directions.rows * m.covariance * m.directions.rows.transpose());
-  const Matrix6 of_mean = S - noise * (1.0 - 1.0 / count);
+  const Matrix6 of_mean = S - noise * (1.0 - std::min(1.0, m.correlation / count));
   return distance_squared(m.directions, mean, of_mean) < chi_squared_bound(kOffsetProbability, last.rank);
 }
 

@@ -82,12 +82,10 @@ Use FusionCore::search(FusionState& state, const Measurement& raw) const {
     Filter& filter = candidate(state, k);
     if (!filter.valid()) continue;
     const TargetMeasurement m = view(state, raw, &filter.mean().pose);
-    Innovation in = filter.innovation(m, settings_);
-    if (m.second) {
-      const Innovation other = filter.innovation(m, settings_, true);
-      if (other.ok && other.nis < in.nis) in = other;
-    }
-    const bool fits = in.ok && in.nis < gate(in.rank);
+    const bool second = filter.second_fits_better(m, settings_);
+    const Innovation own = filter.innovation(m, settings_, second);
+    const bool fits = own.ok && own.nis < gate(own.rank);
+    const Innovation in = filter.innovation(m.as_one_of_many(), settings_, second);
     state.search.score[k] += fits ? in.nis + in.log_det : kOutside_chi2 + in.log_det;
     best = std::min(best, state.search.score[k]);
     if (fits) filter.correct(in, raw.source, settings_);

@@ -8,6 +8,8 @@
 namespace pharos::fusion {
 namespace {
 
+constexpr double kLongestTime_s = 1e6;  // of a measurement's time, and of noise
+
 bool is_rotation_matrix(const Matrix3& R) {
   return R.allFinite() && (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
          R.determinant() > 0.0;
@@ -40,7 +42,9 @@ SettingsError check_source(const SourceSettings& source) {
   for (const double ratio : {source.own_rotation_ratio, source.own_position_ratio}) {
     if (!(ratio >= 0.0) || !std::isfinite(ratio)) return SettingsError::kBiasModel;
   }
-  if (!(source.time_sigma_s >= 0.0) || !std::isfinite(source.time_sigma_s)) return SettingsError::kBiasModel;
+  for (const double time : {source.time_sigma_s, source.noise_time_s}) {
+    if (!(time >= 0.0 && time <= kLongestTime_s)) return SettingsError::kBiasModel;
+  }
   if (!positive(source.silent_after_s)) return SettingsError::kBiasModel;
   for (const double rate : source.faults_per_hour) {
     if (!(rate >= 0.0) || !std::isfinite(rate)) return SettingsError::kProbability;

@@ -72,6 +72,9 @@ struct SourceSettings {
   /// the source states for its noise, of rotation and of position. It grows with range and geometry as the noise does.
   double own_rotation_ratio = 0.0;
   double own_position_ratio = 0.0;
+  /// For how long the noise that the source states is alike (first-order Gauss-Markov), s: a source that filters, as
+  /// the motion tracker does, tells little new with each pose. 0: poses have independent noise.
+  double noise_time_s = 0.0;
   /// One standard deviation of the measurement's time, s: enters along the predicted motion.
   double time_sigma_s = 0.0;
   /// The source is silent when its last measurement is older.
@@ -137,7 +140,7 @@ enum class SettingsError : std::uint8_t {
   kNoAbsoluteSource,
   kMotion,       // densities not positive, inertia ratios that no body has, no rotation
   kMounting,     // not a finite pose
-  kBiasModel,    // covariance not positive definite, time constant not positive
+  kBiasModel,    // covariance not positive definite, a time or ratio of errors out of range
   kProbability,  // a risk, probability or rate outside its range
 };
 

@@ -46,6 +46,7 @@ struct InnovationMean {
 struct SourceMonitor {
   bool seen = false;
   std::int64_t last_ns = 0;
+  float correlation = 1.0F;  // of the last measurement's noise with its neighbours': TargetMeasurement
   SensorPose last_pose;
   int repeats = 0;  // the same pose to the last digit
   bool ever_used = false;

@@ -8,10 +8,12 @@
 
 #include "host/calibrate/mounting/hand_eye_start.hpp"
 #include "host/calibrate/mounting/mounting_adjustment.hpp"
+#include "host/calibrate/mounting/noise_time.hpp"
 #include "host/calibrate/mounting/slow_errors.hpp"
 #include "host/calibrate/mounting/unobservable_directions.hpp"
 #include "host/support/input_error.hpp"
 #include "host/support/rounded_number.hpp"
+#include "pharos/base/noise_correlation.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::calibrate {
@@ -216,7 +218,9 @@ void assess_source(const MountingRecording& recording,
   for (const auto& [row, r] : residuals) {
     const bool used = r.chi2 <= gate;
     inliers[row] = used;
-    fit.residuals.push_back({r.time_s, r.rotation_rad, r.position_m, used});
+    const Matrix6& stated = recording.rows[row].covariance;
+    fit.residuals.push_back({r.time_s, r.rotation_rad, r.position_m, stated.topLeftCorner<3, 3>().trace(),
+                             stated.bottomRightCorner<3, 3>().trace(), used});
     ++(used ? fit.used : fit.outliers);
     if (!used) continue;
     rotation += r.rotation_rad.squaredNorm();
@@ -233,7 +237,8 @@ void assess_source(const MountingRecording& recording,
   fit.chi2_per_freedom = sum / n;
 }
 
-// Residuals of all rows; marks outliers, and enlarges covariances that are too small for the residuals.
+// Residuals of all rows; marks outliers, and enlarges covariances that are too small for the residuals, or for as many
+// rows as there are.
 void assess(const MountingCalibrationInput& input, const MountingUnknowns& unknowns,
             const std::vector<std::vector<bool>>& usable, std::vector<std::vector<bool>>& inliers,
             std::vector<double>& enlarged, std::vector<MountingFit>& fits) {
@@ -245,6 +250,10 @@ void assess(const MountingCalibrationInput& input, const MountingUnknowns& unkno
   for (std::size_t s = 0; s < fits.size(); ++s) {
     assess_source(input.recordings[s], residuals[s], inliers[s], fits[s]);
     enlarged[s] = std::max(fits[s].chi2_per_freedom, 1.0);
+    // Poses whose noise is alike are fewer than they seem.
+    const std::vector<MountingResidual>& all = fits[s].residuals;
+    const double step_s = (all.back().time_s - all.front().time_s) / static_cast<double>(all.size() - 1);
+    enlarged[s] *= noise_correlation(noise_time_s(fits[s], unknowns.knot_s), step_s);
   }
 }
 
@@ -310,10 +319,11 @@ MountingCalibration calibrate_mounting(const MountingCalibrationInput& input) {
   }
   const std::vector<UsedRow> rows = select_rows(input, unknowns, inliers);
   const auto covariance = covariances(input, rows, enlarged, unknowns);
-  const auto slow = estimate_slow_errors(input, rows, enlarged, unknowns, out.fits);
+  const std::vector<ErrorTimes> times = estimate_error_times(input, rows, enlarged, unknowns, out.fits);
   for (std::size_t s = 0; s < input.recordings.size(); ++s) {
     out.mounting.sources.push_back(mounting_of(input, s, unknowns.sources[s], covariance[s]));
-    out.mounting.sources.back().slow_error = slow[s];
+    out.mounting.sources.back().noise_time_s = times[s].noise_time_s;
+    out.mounting.sources.back().slow_error = times[s].slow;
   }
   return out;
 }

@@ -38,7 +38,9 @@ struct MountingCalibrationInput {
 struct MountingResidual {
   double time_s = 0.0;               // on the vehicle's clock
   Vector3 rotation_rad, position_m;  // measured minus predicted, in the sensor frame, slow error removed
-  bool used = true;                  // false: left out as an outlier
+  // Stated for them: traces.
+  double rotation_variance_rad2 = 0.0, position_variance_m2 = 0.0;
+  bool used = true;  // false: left out as an outlier
 };
 
 struct MountingFit {

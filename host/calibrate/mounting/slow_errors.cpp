@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/calibrate/mounting/noise_time.hpp"
+
 namespace pharos::calibrate {
 namespace {
 
@@ -46,13 +48,17 @@ double unseen_fraction(double residual_rms, double stated_sigma, std::size_t row
   return std::max(0.0, 1.0 - shown - taken_up - kShownSigmas * std::sqrt(2.0 / freedom));
 }
 
+// The same where noise that moves slowly explains what the motion took up: the scatter of a mean square of as many
+// independent draws as the recording has.
+double hidden_fraction(double span_s, double noise_time_s) {
+  return std::min(1.0, std::sqrt(2.0 * 2.0 * noise_time_s / span_s));
+}
+
 }  // namespace
 
-std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingCalibrationInput& input,
-                                                                 const std::vector<UsedRow>& rows,
-                                                                 const std::vector<double>& enlarged,
-                                                                 const MountingUnknowns& unknowns,
-                                                                 const std::vector<MountingFit>& fits) {
+std::vector<ErrorTimes> estimate_error_times(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
+                                             const std::vector<double>& enlarged, const MountingUnknowns& unknowns,
+                                             const std::vector<MountingFit>& fits) {
   MountingCalibrationInput assumed = input;
   MountingUnknowns present = unknowns;
   for (int step = 0; step < kSteps; ++step) {
@@ -70,7 +76,7 @@ std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingC
   }
   const std::vector<StatedNoise> noise = stated_noise(input, rows);
   const double span_s = static_cast<double>(unknowns.segments()) * unknowns.knot_s;
-  std::vector<std::optional<host::SlowError>> out(noise.size());
+  std::vector<ErrorTimes> out(noise.size());
   for (std::size_t s = 0; s < out.size(); ++s) {
     const MountingRecording& recording = assumed.recordings[s];
     if (recording.kind == host::SourceKind::kSlam || !(noise[s].rotation_rad > 0.0 && noise[s].position_m > 0.0)) {
@@ -78,15 +84,21 @@ std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingC
     }
     const double a_time_constant = static_cast<double>(noise[s].rows) * input.slow_time_constant_s / span_s;
     const double least = 1.0 / std::sqrt(std::max(a_time_constant, 1.0));
-    out[s] =
-        host::SlowError{std::max(recording.slow_rotation_rad / noise[s].rotation_rad, least),
-                        std::max(recording.slow_position_m / noise[s].position_m, least), input.slow_time_constant_s};
-    if (s != input.given) continue;
-    const auto unseen = [&](double residual_rms, double stated_sigma) {
-      return std::sqrt(unseen_fraction(residual_rms, stated_sigma, noise[s].rows, unknowns.motion.size()));
-    };
-    out[s]->rotation_ratio = std::max(out[s]->rotation_ratio, unseen(fits[s].rms_rotation_rad, noise[s].rotation_rad));
-    out[s]->position_ratio = std::max(out[s]->position_ratio, unseen(fits[s].rms_position_m, noise[s].position_m));
+    const double noise_time = noise_time_s(fits[s], unknowns.knot_s);
+    out[s].noise_time_s = noise_time;
+    host::SlowError slow{std::max(recording.slow_rotation_rad / noise[s].rotation_rad, least),
+                         std::max(recording.slow_position_m / noise[s].position_m, least), input.slow_time_constant_s};
+    if (s == input.given) {
+      const auto unseen = [&](double residual_rms, double stated_sigma) {
+        return noise_time > 0.0 ? hidden_fraction(span_s, noise_time)
+                                : unseen_fraction(residual_rms, stated_sigma, noise[s].rows, unknowns.motion.size());
+      };
+      slow.rotation_ratio =
+          std::max(slow.rotation_ratio, std::sqrt(unseen(fits[s].rms_rotation_rad, noise[s].rotation_rad)));
+      slow.position_ratio =
+          std::max(slow.position_ratio, std::sqrt(unseen(fits[s].rms_position_m, noise[s].position_m)));
+    }
+    out[s].slow = slow;
   }
   return out;
 }

@@ -8,6 +8,11 @@
 
 namespace pharos::calibrate {
 
+struct ErrorTimes {
+  double noise_time_s = 0.0;  // noise_time.hpp
+  std::optional<host::SlowError> slow;
+};
+
 /// Each source's slow error as a ratio to the noise that it states: the variance under which the rows are most likely,
 /// by the fixed point sum of squares over well-determined freedoms (MacKay, "Bayesian interpolation", Neural
 /// Computation 4 (1992), equation 4.9), from the input's assumption on. A mounting takes up the mean of its source's
@@ -18,13 +23,12 @@ namespace pharos::calibrate {
 ///
 /// Of the given source, whose mounting takes nothing up: not below what it states and its residuals do not show. Errors
 /// that all of its poses have in common (sensors' places, a rotor's calibration) move the motion and leave no residual.
+/// So does noise that moves slowly: where it is found it explains all of it but the scatter of its own mean square.
 ///
 /// `fits`: residuals of the adjustment. `rows`, `enlarged`: those of the adjustment that found `unknowns`. Cost: an
 /// evaluation of the problem and a factorisation for each of eight steps.
-std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingCalibrationInput& input,
-                                                                 const std::vector<UsedRow>& rows,
-                                                                 const std::vector<double>& enlarged,
-                                                                 const MountingUnknowns& unknowns,
-                                                                 const std::vector<MountingFit>& fits);
+std::vector<ErrorTimes> estimate_error_times(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
+                                             const std::vector<double>& enlarged, const MountingUnknowns& unknowns,
+                                             const std::vector<MountingFit>& fits);
 
 }  // namespace pharos::calibrate

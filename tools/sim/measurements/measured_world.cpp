@@ -47,6 +47,7 @@ class Chain {
   }
 
   WorldSensorPose measure(const TruthState& truth) {
+    const double step_s = truth.time_s - time_s_;
     move_bias(truth.time_s);
     WorldSensorPose pose;
     if (source_.relative) {
@@ -63,9 +64,8 @@ class Chain {
       pose = seen;
       pose.t += source_.T_vehicle_sensor.R.transpose() * bias_.tail<3>();
     }
-    Vector6 noise;
-    noise << source_.noise_rad * normal3(random_), source_.noise_m * normal3(random_);
-    pose = pose.moved_by(noise);
+    move_noise(step_s);
+    pose = pose.moved_by(noise_);
     if (source_.no_roll) {
       pose.R = rotation_exp(pose.R.col(2) * random_.uniform(-std::numbers::pi, std::numbers::pi)) * pose.R;
     }
@@ -77,6 +77,13 @@ class Chain {
     Vector6 v;
     v << source_.bias_rad * normal3(random_), source_.bias_m * normal3(random_);
     return v;
+  }
+
+  void move_noise(double step_s) {
+    const double kept = source_.noise_time_s > 0.0 ? std::exp(-step_s / source_.noise_time_s) : 0.0;
+    Vector6 fresh;
+    fresh << source_.noise_rad * normal3(random_), source_.noise_m * normal3(random_);
+    noise_ = kept * noise_ + std::sqrt(1.0 - kept * kept) * fresh;
   }
 
   void move_bias(double time_s) {
@@ -93,6 +100,7 @@ class Chain {
   const MeasuredSource& source_;
   RandomStream random_;
   Vector6 bias_ = Vector6::Zero();
+  Vector6 noise_ = Vector6::Zero();
   double time_s_ = 0.0;
   std::optional<Pose<frame::Target, frame::Camera>> first_;
 };

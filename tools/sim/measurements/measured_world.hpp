@@ -21,9 +21,11 @@ struct MeasuredSource {
   std::string name;
   int rate_hz = 10;
   double delay_s = 0.0;
-  // White noise of one pose, and the slow error: 1 sigma of each axis and its time constant.
+  // Noise of one pose, and the slow error: 1 sigma of each axis and its time constant. Noise is white, or of a source
+  // that filters alike for noise_time_s (first-order Gauss-Markov).
   double noise_rad = 1e-3;
   double noise_m = 1e-3;
+  double noise_time_s = 0.0;
   double bias_rad = 5e-4;
   double bias_m = 5e-4;
   double bias_time_constant_s = 60.0;

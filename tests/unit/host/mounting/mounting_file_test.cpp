@@ -47,6 +47,7 @@ SourceMounting estimated_tof() {
   source.time_offset_sigma_s = 2e-4;
   source.time_offset_origin = MountingOrigin::kEstimated;
   source.scale_sigma = 1e-3;
+  source.noise_time_s = 0.19;
   source.slow_error = SlowError{0.2, 1.0 / 3.0, 45.0};
   source.unobservable = {"translation along the \"turn\" axis\n"};
   return source;
@@ -94,6 +95,7 @@ TEST(MountingFile, ReadsBackExactlyWhatItWrites) {
   EXPECT_EQ(tof.time_offset_s, wanted.time_offset_s);
   EXPECT_EQ(tof.time_offset_sigma_s, wanted.time_offset_sigma_s);
   EXPECT_EQ(tof.scale_sigma, wanted.scale_sigma);
+  EXPECT_EQ(tof.noise_time_s, wanted.noise_time_s);
   ASSERT_TRUE(tof.slow_error);
   EXPECT_EQ(tof.slow_error->rotation_ratio, wanted.slow_error->rotation_ratio);
   EXPECT_EQ(tof.slow_error->position_ratio, wanted.slow_error->position_ratio);

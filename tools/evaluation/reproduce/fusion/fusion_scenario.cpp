@@ -69,6 +69,7 @@ fusion::Settings settings_of(const sim::WorldSettings& world, double faults_per_
     sigma << Vector3::Constant(from.bias_rad), Vector3::Constant(from.bias_m);
     to.bias_covariance = sigma.cwiseAbs2().asDiagonal();
     to.bias_time_constant_s = from.bias_time_constant_s;
+    to.noise_time_s = from.noise_time_s;
     to.faults_per_hour.fill(faults_per_hour);
     settings.sources.push_back(to);
   }

@@ -10,6 +10,7 @@
 #include "pharos/base/units.hpp"
 #include "tests/support/error_of.hpp"
 #include "tools/sim/approach/approach_simulator.hpp"
+#include "tools/sim/random_stream.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -131,7 +132,32 @@ TEST(MountingCalibration, WhatTheGivenSourcesResidualsDoNotShowIsItsSlowError) {
     EXPECT_GT(ratio, 0.8 * unseen);
     EXPECT_LT(ratio, unseen + 0.05);
   }
-  EXPECT_LT(slow_of(1).position_ratio, 0.5);  // a mounting takes up what its source's poses have in common
+  EXPECT_EQ(found.mounting.sources[0].noise_time_s, 0.0);  // neighbours differ
+  EXPECT_LT(slow_of(1).position_ratio, 0.5);               // a mounting takes up what its source's poses have in common
+}
+
+// Poses of a filter: noise that is alike for a fifth of a second, four times as large as the scenario's own.
+TEST(MountingCalibration, NoiseThatMovesSlowlyIsNotTakenForASlowError) {
+  constexpr double kTime_s = 0.2, kOverOwn = 4.0;
+  const sim::ApproachSimulator simulator(scenario(), 2);
+  MountingCalibrationInput input = recorded(simulator);
+  input.recordings.resize(2);  // lighthouse, tof
+  sim::RandomStream random(7, "noise that moves slowly");
+  Vector6 unit = Vector6::Zero();
+  double before_s = -1.0;
+  for (host::SourceRow& row : input.recordings[0].rows) {
+    const double kept = std::exp(-(row.time_s - before_s) / kTime_s);
+    before_s = row.time_s;
+    for (int i = 0; i < 6; ++i) unit[i] = kept * unit[i] + std::sqrt(1.0 - kept * kept) * random.normal();
+    const Matrix6 lower = row.covariance.llt().matrixL();
+    row.pose = row.pose.moved_by(kOverOwn * lower * unit);
+    row.covariance *= 1.0 + kOverOwn * kOverOwn;
+  }
+  const MountingCalibration found = calibrate_mounting(input);
+  EXPECT_NEAR(found.mounting.sources[0].noise_time_s, kTime_s, 0.05);
+  EXPECT_EQ(found.mounting.sources[1].noise_time_s, 0.0);
+  // Where neighbours are not looked at a ratio of 0.8 is stated.
+  EXPECT_LT(found.mounting.sources[0].slow_error->position_ratio, 0.5);
 }
 
 TEST(MountingCalibration, NamesTheTurnOfARingAndLeavesItOpen) {
