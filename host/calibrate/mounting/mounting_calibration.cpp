@@ -30,7 +30,9 @@ constexpr std::size_t kMinRows = 30;
 constexpr double kMinSeconds = 5.0;
 constexpr double kOutlierChi2 = 50.0;  // of six: 5e-9
 constexpr int kRounds = 4;
-constexpr double kSlowSteps = 2.0;  // nodes of the slow error a time constant
+// Nodes of the slow error a time constant, with straight lines between them: what changes faster than a target sways is
+// lost, and its part that looks like a turned mounting would be in no sigma.
+constexpr double kSlowSteps = 8.0;
 constexpr std::size_t kMaxKnots = 2000;
 // Of slam without a prior: a baseline of 0.3 m known to 0.6 mm. Without it slam would bend the motion of all sources.
 constexpr double kSlamScaleSigma = 2e-3;
@@ -291,6 +293,20 @@ host::SourceMounting mounting_of(const MountingCalibrationInput& input, std::siz
   return out;
 }
 
+// Half way, as ratios, from what was assumed to what the recording tells: a minute holds two time constants, and an
+// estimate that happens to be small must not make a mounting look sure.
+MountingCalibrationInput with_likely_slow_errors(const MountingCalibrationInput& input,
+                                                 const std::vector<UsedRow>& rows, const std::vector<double>& enlarged,
+                                                 const MountingUnknowns& unknowns) {
+  MountingCalibrationInput out = with_estimated_slow_errors(input, rows, enlarged, unknowns);
+  for (std::size_t s = 0; s < out.recordings.size(); ++s) {
+    MountingRecording& recording = out.recordings[s];
+    recording.slow_rotation_rad = std::sqrt(recording.slow_rotation_rad * input.recordings[s].slow_rotation_rad);
+    recording.slow_position_m = std::sqrt(recording.slow_position_m * input.recordings[s].slow_position_m);
+  }
+  return out;
+}
+
 }  // namespace
 
 MountingCalibration calibrate_mounting(const MountingCalibrationInput& input) {
@@ -313,12 +329,18 @@ MountingCalibration calibrate_mounting(const MountingCalibrationInput& input) {
   const auto usable = usable_rows(input, unknowns, path, out.fits);
   std::vector<std::vector<bool>> inliers = usable;
   std::vector<double> enlarged(input.recordings.size(), 1.0);
-  for (int round = 0; round < kRounds; ++round) {
-    out.converged = adjust(input, select_rows(input, unknowns, inliers), enlarged, unknowns);
-    assess(input, unknowns, usable, inliers, enlarged, out.fits);
-  }
+  const auto settle = [&](const MountingCalibrationInput& assumed, int rounds) {
+    for (int round = 0; round < rounds; ++round) {
+      out.converged = adjust(assumed, select_rows(assumed, unknowns, inliers), enlarged, unknowns);
+      assess(assumed, unknowns, usable, inliers, enlarged, out.fits);
+    }
+  };
+  settle(input, kRounds);
+  const MountingCalibrationInput likely =
+      with_likely_slow_errors(input, select_rows(input, unknowns, inliers), enlarged, unknowns);
+  settle(likely, 1);
   const std::vector<UsedRow> rows = select_rows(input, unknowns, inliers);
-  const auto covariance = covariances(input, rows, enlarged, unknowns);
+  const auto covariance = covariances(likely, rows, enlarged, unknowns);
   const std::vector<ErrorTimes> times = estimate_error_times(input, rows, enlarged, unknowns, out.fits);
   for (std::size_t s = 0; s < input.recordings.size(); ++s) {
     out.mounting.sources.push_back(mounting_of(input, s, unknowns.sources[s], covariance[s]));

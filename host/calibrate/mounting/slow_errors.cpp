@@ -56,9 +56,10 @@ double hidden_fraction(double span_s, double noise_time_s) {
 
 }  // namespace
 
-std::vector<ErrorTimes> estimate_error_times(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
-                                             const std::vector<double>& enlarged, const MountingUnknowns& unknowns,
-                                             const std::vector<MountingFit>& fits) {
+MountingCalibrationInput with_estimated_slow_errors(const MountingCalibrationInput& input,
+                                                    const std::vector<UsedRow>& rows,
+                                                    const std::vector<double>& enlarged,
+                                                    const MountingUnknowns& unknowns) {
   MountingCalibrationInput assumed = input;
   MountingUnknowns present = unknowns;
   for (int step = 0; step < kSteps; ++step) {
@@ -74,6 +75,13 @@ std::vector<ErrorTimes> estimate_error_times(const MountingCalibrationInput& inp
       }
     }
   }
+  return assumed;
+}
+
+std::vector<ErrorTimes> estimate_error_times(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
+                                             const std::vector<double>& enlarged, const MountingUnknowns& unknowns,
+                                             const std::vector<MountingFit>& fits) {
+  const MountingCalibrationInput assumed = with_estimated_slow_errors(input, rows, enlarged, unknowns);
   const std::vector<StatedNoise> noise = stated_noise(input, rows);
   const double span_s = static_cast<double>(unknowns.segments()) * unknowns.knot_s;
   std::vector<ErrorTimes> out(noise.size());

@@ -8,6 +8,13 @@
 
 namespace pharos::calibrate {
 
+/// The input with each source's slow error as the recording tells it; a source of which it tells nothing keeps what was
+/// assumed. As estimate_error_times(), which says how.
+MountingCalibrationInput with_estimated_slow_errors(const MountingCalibrationInput& input,
+                                                    const std::vector<UsedRow>& rows,
+                                                    const std::vector<double>& enlarged,
+                                                    const MountingUnknowns& unknowns);
+
 struct ErrorTimes {
   double noise_time_s = 0.0;  // noise_time.hpp
   std::optional<host::SlowError> slow;

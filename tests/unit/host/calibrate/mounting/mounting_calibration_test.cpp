@@ -91,8 +91,10 @@ TEST(MountingCalibration, FindsMountingsFeaturesDelaysAndSlowErrorsOfAMinute) {
       const host::SourceMounting& source = found.mounting.sources[s];
       const auto error = error_of_source(simulator.true_mounting().sources[s], source);
       const std::string what = source.name + " seed " + std::to_string(seed);
-      // Slam's scale of 0.1 % (1 sigma) is 2 mm at 2 m.
-      const double bar_mm = source.kind == host::SourceKind::kSlam ? 6.0 : 1.0;
+      // Slam's scale of 0.1 % (1 sigma) is 2 mm at 2 m. Ring2 does not tell the turn: README.
+      const double bar_mm = source.kind == host::SourceKind::kSlam    ? 6.0
+                            : source.kind == host::SourceKind::kRing2 ? 1.5
+                                                                      : 1.0;
       EXPECT_LT(error.segment<3>(0).norm() * kDegPerRad, 0.05) << what;
       EXPECT_LT(error.segment<3>(3).norm() * kMmPerM, bar_mm) << what;
       EXPECT_LT(error.segment<3>(6).norm() * kDegPerRad, 0.05) << what;
@@ -101,15 +103,14 @@ TEST(MountingCalibration, FindsMountingsFeaturesDelaysAndSlowErrorsOfAMinute) {
       Eigen::Matrix<double, 13, 1> variance;
       variance << source.T_vehicle_sensor.covariance.diagonal(), source.T_target_feature->covariance.diagonal(),
           source.time_offset_sigma_s * source.time_offset_sigma_s;
-      for (int i = 0; i < 13; ++i) {  // 117 in all; two are beyond 4, the worst 4.5: README
+      for (int i = 0; i < 13; ++i) {  // 117 in all; the worst 3.1
         sum += error[i] * error[i] / variance[i];
         ++freedom;
-        EXPECT_LT(std::abs(error[i]), 5.0 * std::sqrt(variance[i])) << what << " component " << i;
+        EXPECT_LT(std::abs(error[i]), 3.5 * std::sqrt(variance[i])) << what << " component " << i;
       }
     }
   }
-  // Components of one source are correlated: as if every third were independent. The slow errors assumed are larger
-  // than the simulated ones at 2 m, so that the mean is below 1.
+  // Components of one source are correlated: as if every third were independent.
   EXPECT_LT(sum / freedom, 1.0 + 6.0 * std::sqrt(3.0 * 2.0 / freedom));
   double log_sum = 0.0;
   for (const double ratio : log_ratios) log_sum += ratio;
