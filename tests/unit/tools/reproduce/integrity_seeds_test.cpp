@@ -36,9 +36,11 @@ TEST(IntegritySeeds, Line) {
                              450232, 450280, 450365, 460048, 460270, 462197, 463120, 464076, 464150, 464207, 464491});
 }
 
-// Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them.
+// Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them; an edge of
+// a polygon between two gaps, for a part of the contour.
 TEST(IntegritySeeds, Ellipses) {
-  expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934, 93094, 212802});
+  expect_no_failure("ellipses",
+                    {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934, 93094, 212802, 490468, 492524});
 }
 
 // A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster or
