@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <future>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/circle_match.hpp"
@@ -11,6 +13,7 @@
 #include "host/vision/ring2/other_ring.hpp"
 #include "host/vision/ring2/rim.hpp"
 #include "host/vision/ring2/rim_evidence.hpp"
+#include "host/vision/ring2/rings_before.hpp"
 #include "pharos/ellipse/detect.hpp"
 
 namespace pharos::host {
@@ -185,9 +188,14 @@ Ring2Detection ring2_by_edges(const ring2::Rig& rig, const Ring2Settings& settin
                               std::array<std::vector<DetectedEllipse>, ring2::kViews> found) {
   const auto contours = contours_of(found, settings.systematic_px);
   for (const auto& hypotheses_of : {ring_hypotheses, three_ellipse_hypotheses}) {
-    const std::vector<FollowedHypothesis> all = followed(rig, settings, images, hypotheses_of(rig, contours));
-    const RingDecision decision = decide(rig, all, settings.sizes);
+    std::vector<FollowedHypothesis> all = followed(rig, settings, images, hypotheses_of(rig, contours));
+    RingDecision decision = decide(rig, all, settings.sizes);
     if (decision.best == nullptr) continue;
+    if (decision.best->hypothesis.has_nozzle) {
+      auto before = followed(rig, settings, images, rings_before(rig, contours, decision.best->hypothesis.model));
+      std::move(before.begin(), before.end(), std::back_inserter(all));
+      decision = decide(rig, all, settings.sizes);
+    }
     Ring2Detection answer;
     answer.found = std::move(found);
     if (decision.rival == nullptr && !is_size_told(settings.sizes) &&
