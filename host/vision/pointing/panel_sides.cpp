@@ -102,6 +102,8 @@ struct EndSearch {
     const double reach_px = kMaxUnmeasured * whole.length();
     for (const Segment& edge : outline) {
       if (std::abs(side.extent.offset(edge.middle())) > kCornerOff_px) continue;
+      // A short edge that cuts the corner off is near the side's line as well.
+      if (edge.along().dot(side.extent.along()) < std::cos(kMaxEndTurn)) continue;
       const auto is_near = [&](const Vector2& a, const Vector2& b) { return (a - b).norm() < reach_px; };
       if (is_near(edge.begin, side.extent.begin) && side.extent.station(edge.begin) < 0.0) whole.begin = edge.begin;
       if (is_near(edge.end, side.extent.end) && side.extent.station(edge.end) > side.extent.length())
