@@ -52,6 +52,12 @@ TEST(RingDecision, AWideRimIsAFaceNotAGrooveInIt) { expect_right(seen(2122)); }
 // inside it, 35 mm behind.
 TEST(RingDecision, ARingOfWhichEachImageHasAnotherEdgeIsFound) { expect_right(seen(483006)); }
 
+// Two bodies with a ring and a nozzle each; the docking ring's nozzle is no ellipse, and neither image has both of its
+// edges.
+TEST(RingDecision, ARingBesideAnotherWhoseNozzleIsNotSeenMakesThePairUnsure) {
+  EXPECT_EQ(seen(485148).found.refusal, "ring_unsure");
+}
+
 TEST(RingDecision, SizesThatAreToldDecide) {
   RingSizes sizes;
   sizes.outer_radius = KnownLength{sim::random_target(20).truth.ring_radius_m, 0.003};
