@@ -78,6 +78,9 @@ struct EndSearch {
     const Segment guess{side.extent.end, other.extent.begin};
     if (guess.length() < 4.0) return;
     const Segment* seen = edge_along(guess, outline);
+    // Of sides that were measured in pieces the corners are left out: the end is where the outline has them.
+    const Segment between{whole(side).end, whole(other).begin};
+    if (seen == nullptr) seen = edge_along(between, outline);
     const auto whole_end = measured_side(image, target, camera, seen != nullptr ? *seen : guess, reach_px);
     if (whole_end && !whole_end->cut && whole_end->fit.length_px() >= kMinSeenFraction * guess.length()) {
       panel.ends.push_back(*whole_end);
