@@ -52,7 +52,7 @@ class FitCheck {
     if (support_.beside_gaps != 0) leave_gaps();
     if (support_.gradient_variation > kMinVariation) leave_other_steps(rms_px);
     if (support_.gradient_variation > kMinVariationAtJump) add_steps_that_jump();
-    if (!is_determined() || is_noise()) return std::nullopt;
+    if (!is_determined() || is_noise() || rests_on_another_edge()) return std::nullopt;
     add_jackknife(std::span<const PointF>(support_.points.data(), support_.points.size()), fit_);
     widen_dot(rms_px);
     // What hides a part of a contour may bend the rest beyond what its points show.
@@ -185,6 +185,37 @@ class FitCheck {
       }
     }
     return false;
+  }
+
+  // Whether pieces between gaps, of another step than the median's, are needed to tell the axes: they may be edges of
+  // what covers the contour.
+  bool rests_on_another_edge() const {
+    const std::uint64_t pieces = other_pieces(median_square());
+    if (pieces == 0) return false;
+    const auto rest = fit_without(pieces);
+    return !rest || !knows_axes(*rest, kDeterminedSigmas);
+  }
+
+  // A bit for each sector of the pieces of the contour, of kMinOfPiece sectors or more, that lie between gaps and are
+  // of another step all along.
+  std::uint64_t other_pieces(float median_square) const {
+    constexpr int kMinOfPiece = 3;
+    const SectorSteps steps = sector_steps();
+    const float ratio = kOtherStepAtJump * kOtherStepAtJump;
+    std::uint64_t pieces = 0;
+    for (int first = 0; first < steps.count; ++first) {
+      if (!(steps.at(first) > 0.0F) || steps.at(first - 1) > 0.0F) continue;
+      std::uint64_t piece = 0;
+      int length = 0;
+      bool is_other = true;
+      for (; length < steps.count && steps.at(first + length) > 0.0F; ++length) {
+        const float square = steps.at(first + length);
+        is_other = is_other && (square < median_square / ratio || square > median_square * ratio);
+        piece |= std::uint64_t{1} << ((first + length) % steps.count);
+      }
+      if (is_other && length >= kMinOfPiece) pieces |= piece;
+    }
+    return pieces;
   }
 
   // Mean squared gradients of a contour's sectors, 0 where there are no points.

@@ -78,6 +78,9 @@ struct EndSearch {
     const Segment guess{side.extent.end, other.extent.begin};
     if (guess.length() < 4.0) return;
     const Segment* seen = edge_along(guess, outline);
+    // Of sides that were measured in pieces the corners are left out: the end is where the outline has them.
+    const Segment between{whole(side).end, whole(other).begin};
+    if (seen == nullptr) seen = edge_along(between, outline);
     const auto whole_end = measured_side(image, target, camera, seen != nullptr ? *seen : guess, reach_px);
     if (whole_end && !whole_end->cut && whole_end->fit.length_px() >= kMinSeenFraction * guess.length()) {
       panel.ends.push_back(*whole_end);
@@ -102,6 +105,8 @@ struct EndSearch {
     const double reach_px = kMaxUnmeasured * whole.length();
     for (const Segment& edge : outline) {
       if (std::abs(side.extent.offset(edge.middle())) > kCornerOff_px) continue;
+      // A short edge that cuts the corner off is near the side's line as well.
+      if (edge.along().dot(side.extent.along()) < std::cos(kMaxEndTurn)) continue;
       const auto is_near = [&](const Vector2& a, const Vector2& b) { return (a - b).norm() < reach_px; };
       if (is_near(edge.begin, side.extent.begin) && side.extent.station(edge.begin) < 0.0) whole.begin = edge.begin;
       if (is_near(edge.end, side.extent.end) && side.extent.station(edge.end) > side.extent.length())

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <future>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/circle_match.hpp"
@@ -11,6 +13,7 @@
 #include "host/vision/ring2/other_ring.hpp"
 #include "host/vision/ring2/rim.hpp"
 #include "host/vision/ring2/rim_evidence.hpp"
+#include "host/vision/ring2/rings_before.hpp"
 #include "pharos/ellipse/detect.hpp"
 
 namespace pharos::host {
@@ -142,10 +145,25 @@ ring2::Matrix8 covariance_about(const ring2::Matrix8& covariance, const std::arr
 
 bool is_size_told(const RingSizes& sizes) { return sizes.outer_radius || sizes.inner_radius; }
 
+// The last rounds of following its edges, and its estimate.
+std::optional<FollowedHypothesis> measured(const ring2::Rig& rig, const Ring2Settings& settings,
+                                           const Ring2Images& images, RingHypothesis hypothesis) {
+  if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kLast, hypothesis)) return std::nullopt;
+  auto estimate = ring2::solve_ring2(rig, hypothesis.contours);
+  if (!estimate || estimate->unobservable != (hypothesis.has_nozzle ? 0 : ring2::kUnobservableNozzle)) {
+    return std::nullopt;
+  }
+  if (const auto cautious = ring2::solve_ring2(rig, hypothesis.cautious)) {
+    (*estimate).covariance = covariance_about(cautious->covariance, cautious->tilt_axes, estimate->tilt_axes);
+  }
+  const double rim = rim_evidence(rig, images, {estimate->ring_centre_m, estimate->normal, estimate->ring_radius_m});
+  return FollowedHypothesis{std::move(hypothesis), with_scatter(*estimate), rim};
+}
+
 std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Settings& settings,
-                                         const Ring2Images& images, std::vector<RingHypothesis> hypotheses) {
+                                         const Ring2Images& images, const std::vector<RingHypothesis>& hypotheses) {
   std::vector<RingHypothesis> near;
-  for (RingHypothesis& hypothesis : hypotheses) {
+  for (RingHypothesis hypothesis : hypotheses) {
     if (!hypothesis.has_nozzle && !is_size_told(settings.sizes)) continue;  // it may be the nozzle instead
     if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kFirst, hypothesis)) continue;
     const auto is_known = [&](const RingHypothesis& other) { return is_same(other, hypothesis); };
@@ -153,16 +171,20 @@ std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Setti
   }
   std::vector<FollowedHypothesis> result;
   for (RingHypothesis& hypothesis : near) {
-    if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kLast, hypothesis)) continue;
-    auto estimate = ring2::solve_ring2(rig, hypothesis.contours);
-    if (!estimate || estimate->unobservable != (hypothesis.has_nozzle ? 0 : ring2::kUnobservableNozzle)) continue;
-    if (const auto cautious = ring2::solve_ring2(rig, hypothesis.cautious)) {
-      (*estimate).covariance = covariance_about(cautious->covariance, cautious->tilt_axes, estimate->tilt_axes);
-    }
-    const double rim = rim_evidence(rig, images, {estimate->ring_centre_m, estimate->normal, estimate->ring_radius_m});
-    result.push_back({std::move(hypothesis), with_scatter(*estimate), rim});
+    if (auto one = measured(rig, settings, images, std::move(hypothesis))) result.push_back(std::move(*one));
   }
   return result;
+}
+
+// Whether the images show another ring, of which no nozzle is seen, beside the chosen one.
+bool follows_another_ring(const ring2::Rig& rig, const Ring2Settings& settings, const Ring2Images& images,
+                          const std::vector<RingHypothesis>& hypotheses, const FollowedHypothesis& chosen) {
+  return std::any_of(hypotheses.begin(), hypotheses.end(), [&](RingHypothesis other) {
+    if (other.has_nozzle || !may_be_ring_beside(other.model, chosen.hypothesis.model)) return false;
+    if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kFirst, other)) return false;
+    const auto ring = measured(rig, settings, images, std::move(other));
+    return ring && is_ring_beside(*ring, chosen);
+  });
 }
 
 void take(const ring2::Rig& rig, const RingDecision& decision, Ring2Detection& answer) {
@@ -184,14 +206,22 @@ void take(const ring2::Rig& rig, const RingDecision& decision, Ring2Detection& a
 Ring2Detection ring2_by_edges(const ring2::Rig& rig, const Ring2Settings& settings, const Ring2Images& images,
                               std::array<std::vector<DetectedEllipse>, ring2::kViews> found) {
   const auto contours = contours_of(found, settings.systematic_px);
-  for (const auto& hypotheses_of : {ring_hypotheses, three_ellipse_hypotheses}) {
-    const std::vector<FollowedHypothesis> all = followed(rig, settings, images, hypotheses_of(rig, contours));
-    const RingDecision decision = decide(rig, all, settings.sizes);
+  const std::vector<RingHypothesis> of_pairs = ring_hypotheses(rig, contours);
+  for (const bool from_three : {false, true}) {
+    std::vector<FollowedHypothesis> all =
+        followed(rig, settings, images, from_three ? three_ellipse_hypotheses(rig, contours) : of_pairs);
+    RingDecision decision = decide(rig, all, settings.sizes);
     if (decision.best == nullptr) continue;
+    if (decision.best->hypothesis.has_nozzle) {
+      auto before = followed(rig, settings, images, rings_before(rig, contours, decision.best->hypothesis.model));
+      std::move(before.begin(), before.end(), std::back_inserter(all));
+      decision = decide(rig, all, settings.sizes);
+    }
     Ring2Detection answer;
     answer.found = std::move(found);
     if (decision.rival == nullptr && !is_size_told(settings.sizes) &&
-        shows_another_ring(rig, answer.found, decision.best->estimate)) {
+        (shows_another_ring(rig, answer.found, decision.best->estimate) ||
+         follows_another_ring(rig, settings, images, of_pairs, *decision.best))) {
       answer.refusal = kRingUnsure;
       return answer;
     }

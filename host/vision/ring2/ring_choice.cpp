@@ -42,6 +42,8 @@ constexpr double kPlainRing = 0.3, kFaintRing = 0.1;
 constexpr double kAsPlainRing = 0.7;
 // No ring's face is wider than this fraction of its radius: edges farther apart are of two rings.
 constexpr double kMaxFaceWidth = 0.15;
+// Another ring's radius is at least this fraction of the ring's, and its centre as far from the axis, in radii.
+constexpr double kMinOtherRadius = 0.7, kMinOtherAside = 0.7;
 // Maximum distance of the centres across the axis for circles on one axis, as a fraction of the radius.
 constexpr double kAsidePerRadius = 0.01;
 // A circle that differs from a known size by more than this number of sigmas is another one.
@@ -94,11 +96,15 @@ bool agrees(const FollowedHypothesis& f, const RingSizes& sizes) {
   return !sizes.distance || agrees(e.distance_m, sigma(ring2::kDistance), *sizes.distance, 0.0);
 }
 
+bool has_face(const FollowedHypothesis& f) {
+  return f.rim_evidence > std::max(kMinEvidence, kMinRim * f.hypothesis.evidence_limit[0]);
+}
+
 bool is_candidate(const FollowedHypothesis& f, const RingSizes& sizes) {
   if (!has_ring(f.hypothesis) || !agrees(f, sizes)) return false;
   if (f.hypothesis.has_nozzle && !has_nozzle(f.hypothesis)) return false;
   if (sizes.outer_radius || sizes.inner_radius) return true;
-  return f.hypothesis.has_nozzle && f.rim_evidence > std::max(kMinEvidence, kMinRim * f.hypothesis.evidence_limit[0]);
+  return f.hypothesis.has_nozzle && has_face(f);
 }
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
@@ -215,6 +221,18 @@ RingDecision decide(const ring2::Rig& rig, std::span<const FollowedHypothesis> f
     decision.delta_chi2 = delta;
   }
   return decision;
+}
+
+bool may_be_ring_beside(const ring2::CircleModel& other, const ring2::CircleModel& ring) {
+  const Vector3 between = other.centre_m - ring.centre_m;
+  const double aside_m = (between - between.dot(ring.normal) * ring.normal).norm();
+  return other.radius_m > kMinOtherRadius * ring.radius_m &&
+         aside_m > kMinOtherAside * std::max(other.radius_m, ring.radius_m);
+}
+
+bool is_ring_beside(const FollowedHypothesis& other, const FollowedHypothesis& ring) {
+  return may_be_ring_beside(other.hypothesis.model, ring.hypothesis.model) && has_ring(other.hypothesis) &&
+         has_face(other);
 }
 
 }  // namespace pharos::host

@@ -38,4 +38,10 @@ struct RingDecision {
 /// ring and nozzle are as likely, unless known sizes exclude them.
 RingDecision decide(const ring2::Rig& rig, std::span<const FollowedHypothesis> followed, const RingSizes& sizes);
 
+/// Whether a hypothesis without a nozzle, followed on the edges, is a ring with a face of its own beside another ring:
+/// either may be the docking ring. Circles about that one's axis, and far smaller ones, are not.
+bool is_ring_beside(const FollowedHypothesis& other, const FollowedHypothesis& ring);
+/// Whether it may be, by its circle alone.
+bool may_be_ring_beside(const ring2::CircleModel& other, const ring2::CircleModel& ring);
+
 }  // namespace pharos::host

@@ -171,6 +171,21 @@ TEST(OwnSigmas, APartlyHiddenContourBeforePatchesOfFoil) {
   EXPECT_GE(reported, 9 * kPictures / 10);
 }
 
+// An edge of a polygon inside a contour, between two gaps and of nearly its step, where the rest does not tell the
+// axes: the ellipse through both is none.
+TEST(OwnSigmas, AContourOfWhichAPartIsAPolygonsEdge) {
+  for (std::uint64_t seed = 1; seed <= kPictures; ++seed) {
+    Picture picture(seed);
+    Drawing drawing(kSide_px, kSide_px, 0.51);
+    const TrueEllipse e{50.0, 50.0, 33.6, 20.6, 0.875};
+    drawing.fill(e, 0.34);
+    drawing.fill(regular_polygon_at(53.7 + picture.uniform(-1.0, 1.0), 50.6 + picture.uniform(-1.0, 1.0), 27.4,
+                                    2.68 + picture.uniform(-0.1, 0.1), 5),
+                 0.04);
+    for (const DetectedEllipse& found : picture.detect(drawing, 2.5)) expect_within_sigmas(found, e, seed);
+  }
+}
+
 TEST(OwnSigmas, PolygonsInNoiseAreNone) {
   int reported = 0;
   for (std::uint64_t seed = 1; seed <= kPictures; ++seed) {

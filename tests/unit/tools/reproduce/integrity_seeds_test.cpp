@@ -29,16 +29,20 @@ void expect_no_failure(const std::string& name, std::initializer_list<std::uint6
 // ends of one, and the pieces of a body's sides beside its wings; booms of a hardly known axis; bodies with a face in
 // the dark behind one side; a side of a panel that the border cuts, with a boom;
 // a body of which dark foil interrupts the outline, as a wing, and as a panel with an edge in line; two faces of alike
-// light with one end; a piece of an end for a side, seen along the axis.
+// light with one end; a piece of an end for a side, seen along the axis; a wing with a bright line beside two of its
+// sides; the edge of another face that cuts a face's corner off.
 TEST(IntegritySeeds, Line) {
-  expect_no_failure("line", {62,     108,    220,    244,    1039,   1251,   1430,   1446,   3378,   60259,  60665,
-                             60891,  61369,  200023, 200314, 300074, 300237, 400097, 430006, 432141, 432378, 450045,
-                             450232, 450280, 450365, 460048, 460270, 462197, 463120, 464076, 464150, 464207, 464491});
+  expect_no_failure("line",
+                    {62,     108,    220,    244,    1039,   1251,   1430,   1446,   3378,   60259,  60665,  60891,
+                     61369,  200023, 200314, 300074, 300237, 400097, 430006, 432141, 432378, 450045, 450232, 450280,
+                     450365, 460048, 460270, 462197, 463120, 464076, 464150, 464207, 464491, 480001, 481750});
 }
 
-// Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them.
+// Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them; an edge of
+// a polygon between two gaps, for a part of the contour.
 TEST(IntegritySeeds, Ellipses) {
-  expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934, 93094, 212802});
+  expect_no_failure("ellipses",
+                    {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934, 93094, 212802, 490468, 492524});
 }
 
 // A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster or
@@ -47,9 +51,10 @@ TEST(IntegritySeeds, Ellipses) {
 TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061, 123135, 202518, 460234}); }
 
 // The foot of a ring, the edge of a round body, whose nozzle the ring was taken for, a small ring beside it, a groove;
-// two bodies with a second ring; a groove behind a ring that a boom crosses.
+// three bodies with a second ring; a groove and a band behind rings that a boom crosses.
 TEST(IntegritySeeds, Ring2) {
-  expect_no_failure("ring2", {10014, 10185, 10228, 10330, 10454, 20095, 20244, 20370, 200026, 200054, 200314});
+  expect_no_failure("ring2",
+                    {10014, 10185, 10228, 10330, 10454, 20095, 20244, 20370, 200026, 200054, 200314, 483006, 485148});
 }
 
 }  // namespace

@@ -93,5 +93,25 @@ TEST(RingChoice, ACircleInARimsDepthBeforeItsRingIsNoNozzle) {
   EXPECT_EQ(decision_of({f}).best, nullptr);
 }
 
+FollowedHypothesis lone_ring_at(const Vector3& aside_m, double radius_m) {
+  FollowedHypothesis f = ring_at(0.0, 600.0, 0.001);
+  f.hypothesis.has_nozzle = false;
+  f.hypothesis.evidence = 600.0;
+  f.hypothesis.nozzle_evidence = 0.0;
+  f.hypothesis.model.centre_m += aside_m;
+  f.hypothesis.model.radius_m = radius_m;
+  return f;
+}
+
+TEST(RingChoice, ARingWithAFaceBesideTheChosenOneMayBeTheDockingRing) {
+  const FollowedHypothesis chosen = ring_at(0.0, 900.0, 0.001);
+  EXPECT_TRUE(is_ring_beside(lone_ring_at({0.7, 0.0, 0.0}, kRadius_m), chosen));
+  EXPECT_FALSE(is_ring_beside(lone_ring_at({0.0, 0.0, 0.7}, kRadius_m), chosen));        // on its axis
+  EXPECT_FALSE(is_ring_beside(lone_ring_at({0.7, 0.0, 0.0}, 0.5 * kRadius_m), chosen));  // a thruster
+  FollowedHypothesis cover = lone_ring_at({0.7, 0.0, 0.0}, kRadius_m);
+  cover.rim_evidence = 0.0;
+  EXPECT_FALSE(is_ring_beside(cover, chosen));
+}
+
 }  // namespace
 }  // namespace pharos::host

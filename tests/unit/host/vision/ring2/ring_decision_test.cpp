@@ -48,6 +48,16 @@ TEST(RingDecision, ARingBeforeARoundBodyIsNotANozzle) { expect_right(seen(20)); 
 // Perspective moves the outer edge of a wide tilted rim aside of its inner one.
 TEST(RingDecision, AWideRimIsAFaceNotAGrooveInIt) { expect_right(seen(2122)); }
 
+// A boom and shadows cross it: one image has its outer edge only, the other one its inner edge, and both have a band
+// inside it, 35 mm behind.
+TEST(RingDecision, ARingOfWhichEachImageHasAnotherEdgeIsFound) { expect_right(seen(483006)); }
+
+// Two bodies with a ring and a nozzle each; the docking ring's nozzle is no ellipse, and neither image has both of its
+// edges.
+TEST(RingDecision, ARingBesideAnotherWhoseNozzleIsNotSeenMakesThePairUnsure) {
+  EXPECT_EQ(seen(485148).found.refusal, "ring_unsure");
+}
+
 TEST(RingDecision, SizesThatAreToldDecide) {
   RingSizes sizes;
   sizes.outer_radius = KnownLength{sim::random_target(20).truth.ring_radius_m, 0.003};
