@@ -74,6 +74,7 @@ double NetworkTracker::bearing_sigma(std::size_t station) const {
 void NetworkTracker::saw(const LinearisedSweep& sweep) {
   StationWatch& station = watch_[sweep.station];
   station.plane_s[sweep.plane] = sweep.time_s;
+  if (static_cast<std::size_t>(sweep.hits()) == target_.size()) station.whole_s[sweep.plane] = sweep.time_s;
   station.gradient[sweep.plane] = sweep.gradient;
   station.contradicted_s[sweep.plane] = -1e9;
   station.sigma_rad[sweep.plane] = bearing_sigma(sweep.station);

@@ -28,6 +28,8 @@ constexpr double kBetterFix = 4.0;  // times the filter's variance: it is the po
 // A target that tells its range is asked so often while its light fits: the position's fix is a third of the cost.
 constexpr double kAsk_s = 0.03;
 constexpr double kConfirming_m = 0.06;  // a position that is known less well confirms nothing
+// All four planes of two stations show the body within this time: a cycle of LH1 is 33 ms.
+constexpr double kCycle_s = 0.035;
 // What an attitude of less than 60 ms may be off by: its rate is not known, and a flat target's tilt least of all.
 constexpr double kUnconfirmed_rad = 0.15;
 // A lone hit of a target of several sensors cannot be told from a reflection.
@@ -144,6 +146,7 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
   const bool apart = 2 * linearised.hits() < linearised.sensors && !tells_range(target_, options_.noise);
   if (apart || attitude_suspect()) check_attitude();
   const bool settled = !strayed(taken) && confirmed(now_s);
+  if (taken && shown_by_two_stations()) fixed_s_ = now_s;
   // A small target is followed without two stations only as long as all light fits.
   if (!fix_ && (!taken || attitude_doubted())) fixed_s_ = -1e9;
   if (contradicted_) {
@@ -292,6 +295,18 @@ bool NetworkTracker::strayed(bool taken) {
   return true;
 }
 
+// After a gap both planes of two stations tell where the body is, and the filter how it moves: two sweeps more, which a
+// position of their own needs, are not waited for. Only where every sensor was hit: with some of them the position
+// leans on an attitude that may be mirrored by now.
+bool NetworkTracker::shown_by_two_stations() const {
+  if (!confirmed(time_s_) || attitude_suspect()) return false;
+  const auto at_once = std::count_if(watch_.begin(), watch_.end(), [this](const StationWatch& station) {
+    return !station.excluded && time_s_ - std::min(station.whole_s[0], station.whole_s[1]) < kCycle_s;
+  });
+  return at_once > 1 &&
+         std::max(position_variance(), filter_.widest().position_variance()) < kConfirming_m * kConfirming_m;
+}
+
 // A filter takes what stations are wrong by for noise of each sweep, so that planes which contradict each other move it
 // in turn: in motion it knows no more than all sweeps together, each at its own instant. At rest it does.
 bool NetworkTracker::fix_is_better() const {
@@ -323,9 +338,7 @@ double NetworkTracker::attitude_doubt_rad() const {
   return open ? kMirrored_rad : 0.0;
 }
 
-double NetworkTracker::position_variance() const {
-  return filter_.mean().covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3).trace();
-}
+double NetworkTracker::position_variance() const { return filter_.mean().position_variance(); }
 
 bool NetworkTracker::confirmed(double time_s) const { return time_s - started_s_ >= kConfirmed_s; }
 

@@ -76,6 +76,7 @@ class NetworkTracker {
     int dissents = 0;       // how often more than not it contradicted all others
     double seen_s = -1e9;
     std::array<double, kPlanes> plane_s = {-1e9, -1e9};  // of each plane's last sweep
+    std::array<double, kPlanes> whole_s = {-1e9, -1e9};  // of its last one that hit every sensor
     std::array<Vector3, kPlanes> gradient;               // of its angle by the position then
     std::array<double, kPlanes> sigma_rad{};             // of what station and plane are wrong by
     // How far along its gradient each plane's last sweep puts the body, where it did not fit the filter, and when.
@@ -113,6 +114,7 @@ class NetworkTracker {
   void start_at(const WorldFromBody& pose, double time_s);
   bool confirmed(double time_s) const;
   bool strayed(bool taken);
+  bool shown_by_two_stations() const;
   bool fix_is_better() const;
   bool attitude_suspect() const;
   bool attitude_doubted() const;
