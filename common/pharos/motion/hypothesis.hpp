@@ -132,6 +132,17 @@ class Hypothesis {
     double noise_degrees_of_freedom = 0.0;   // that it was estimated from
   };
 
+  // A body that is pushed after so many sweeps is not one that has just been found.
+  static constexpr int kSettled = 16;
+  // Range of the estimated own variance over the assumed one.
+  static constexpr double kMinLevel = 0.8, kMaxLevel = 1e4;
+  // What a sweep says beyond how it fits.
+  struct Doubts {
+    bool leapt = false;     // no body moves so
+    bool of_state = false;  // the state may be that of wrong sweeps before
+    bool pushed = false;    // a quiet body was
+  };
+
   Hypothesis() = default;
   StationState& station_state(Observer observer) { return station_states_[static_cast<std::size_t>(observer)]; }
   const StationState& station_state(Observer observer) const {
@@ -141,7 +152,7 @@ class Hypothesis {
   void leave_out();
   void judge_tilt(bool both_sides_followed);
   void see_tilt();
-  void dispute(bool leapt, bool in_doubt, bool pushed);
+  void dispute(const Doubts& doubts);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
               const StateEstimate& prediction, const SweepNoise& now);
   void learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const;
