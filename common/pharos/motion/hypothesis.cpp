@@ -189,11 +189,11 @@ void Hypothesis::leave_out() {
 }
 
 // How strongly the sweep speaks against the target, and for how long nothing did.
-void Hypothesis::dispute(const Doubts& doubts) {
-  dispute_ = doubts.leapt ? 1.0 : dispute_of(fit_, withheld_, nis_);
+void Hypothesis::dispute(const Objections& objections) {
+  dispute_ = objections.leapt ? 1.0 : dispute_of(fit_, withheld_, nis_);
   undisputed_ = dispute_ > kSomeDispute ? 0 : undisputed_ + 1;
-  if (doubts.of_state || doubts.pushed) confirm_anew();
-  if (doubts.pushed) dispute_ = std::max(dispute_, kSomeDispute);
+  if (objections.of_state || objections.pushed) confirm_anew();
+  if (objections.pushed) dispute_ = std::max(dispute_, kSomeDispute);
 }
 
 void Hypothesis::confirm_anew() { undisputed_ = -kSettles; }
