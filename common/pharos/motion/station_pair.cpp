@@ -130,13 +130,13 @@ double StationPair::apart_square(const Known& known, const Tracks& tracks) const
 
 bool StationPair::contradicted(std::uint8_t station, const Tracks& tracks) const {
   const Hypothesis *own = tracks[station]->best(), *other = tracks[1U - station]->best();
-  if (known() == nullptr || own == nullptr || other == nullptr || !other->confirmed() || other->diverged())
+  if (!surveyed_ || survey_refused_ || own == nullptr || other == nullptr || !other->confirmed() || other->diverged())
     return false;
   if (std::abs(ticks_to_seconds(own->time_ticks() - other->last_used_ticks())) > kFreshPair_s) return false;
   const Matrix6 &of_own = own->state_estimate().covariance, &of_other = other->state_estimate().covariance;
   return rotation_variance(of_other) < rotation_variance(of_own) &&
          position_variance(of_other) < position_variance(of_own) &&
-         !(apart_square(*known(), tracks) < kPairContradiction);
+         !(apart_square(*surveyed_, tracks) < kPairContradiction);
 }
 
 const StationPair::Known* StationPair::known() const {

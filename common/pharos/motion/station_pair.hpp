@@ -36,7 +36,8 @@ class StationPair {
 
   /// Null while there is none.
   const Hypothesis* joint() const { return joint_ ? &*joint_ : nullptr; }
-  /// The other station's own track knows the pose better, and contradicts this one's by way of the relative pose.
+  /// The other station's own track knows the pose better, and contradicts this one's by way of the relative pose
+  /// that was measured: a learnt one may be what is wrong.
   bool contradicted(std::uint8_t station, const Tracks& tracks) const;
   /// Best estimate of the pose of slot 1's station; only while there is a joint hypothesis.
   std::optional<StationRelative> relative() const;
