@@ -15,8 +15,6 @@ constexpr double kBetterFix = 4.0;  // times the filter's variance: it is the po
 // A target that tells its range is asked so often while its light fits: the position's fix is a third of the cost.
 constexpr double kAsk_s = 0.03;
 constexpr double kConfirming_m = 0.06;  // a position that is known less well confirms nothing
-// All four planes of two stations show the body within this time: a cycle of LH1 is 33 ms.
-constexpr double kCycle_s = 0.035;
 // About any axis, 1 sigma: an attitude that may be the mirrored one, as far as some of the sensors' middle is
 // concerned.
 constexpr double kMirrored_rad = 1.0;
@@ -64,15 +62,6 @@ bool NetworkTracker::strayed(bool taken) {
   // What did not fit the filter fits the position.
   if (vague || fix_->sound) planes_.forget_contradictions(*fix_);
   return true;
-}
-
-// After a gap both planes of two stations tell where the body is, and the filter how it moves: two sweeps more, which a
-// position of their own needs, are not waited for. Only where every sensor was hit: with some of them the position
-// leans on an attitude that may be mirrored by now.
-bool NetworkTracker::shown_by_two_stations() const {
-  if (!confirmed(time_s_) || attitude_suspect()) return false;
-  return planes_.stations_at_once(kCycle_s, time_s_, watch_.excluded()) > 1 &&
-         std::max(position_variance(), filter_.widest().position_variance()) < kConfirming_m * kConfirming_m;
 }
 
 // A filter takes what stations are wrong by for noise of each sweep, so that planes which contradict each other move it

@@ -69,9 +69,7 @@ double NetworkTracker::bearing_sigma(std::size_t station) const {
   return std::max(1e-6, stations_[station].sigmas.value_or(options_.noise.unstated).bearing_rad(range_m));
 }
 
-void NetworkTracker::saw(const LinearisedSweep& sweep) {
-  planes_.saw(sweep, bearing_sigma(sweep.station), static_cast<std::size_t>(sweep.hits()) == target_.size());
-}
+void NetworkTracker::saw(const LinearisedSweep& sweep) { planes_.saw(sweep, bearing_sigma(sweep.station)); }
 
 void NetworkTracker::saw(const PositionFix& fix) {
   for (const FixPlane& plane : fix.planes) planes_.saw(plane, bearing_sigma(plane.station));

@@ -126,7 +126,6 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
   const bool apart = 2 * linearised.hits() < linearised.sensors && !tells_range(target_, options_.noise);
   if (apart || attitude_suspect()) check_attitude();
   const bool settled = !strayed(taken) && confirmed(now_s);
-  if (taken && shown_by_two_stations()) fixed_.set(now_s);
   // A small target is followed without two stations only as long as all light fits.
   if (!fix_ && (!taken || attitude_doubted())) fixed_.forget();
   if (watch_.contradicted()) {

@@ -63,7 +63,6 @@ class NetworkTracker {
   void start_at(const WorldFromBody& pose, double time_s);
   bool confirmed(double time_s) const;
   bool strayed(bool taken);
-  bool shown_by_two_stations() const;
   bool fix_is_better() const;
   bool attitude_suspect() const;
   bool attitude_doubted() const;

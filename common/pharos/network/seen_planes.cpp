@@ -10,10 +10,9 @@ constexpr double kUnseen_m = 0.1;
 
 }  // namespace
 
-void SeenPlanes::saw(const LinearisedSweep& sweep, double sigma_rad, bool whole) {
+void SeenPlanes::saw(const LinearisedSweep& sweep, double sigma_rad) {
   Seen& plane = seen_[sweep.station][sweep.plane];
   plane.last.set(sweep.time_s);
-  if (whole) plane.whole.set(sweep.time_s);
   plane.gradient = sweep.gradient;
   plane.sigma_rad = sigma_rad;
   plane.contradicted.forget();
@@ -43,15 +42,6 @@ void SeenPlanes::forget_contradictions() {
   for (Planes& planes : seen_) {
     for (Seen& plane : planes) plane.contradicted.forget();
   }
-}
-
-int SeenPlanes::stations_at_once(double span_s, double now_s, const StationMask& excluded) const {
-  int count = 0;
-  for (std::size_t s = 0; s < seen_.size(); ++s) {
-    const bool both = seen_[s][0].whole.within(span_s, now_s) && seen_[s][1].whole.within(span_s, now_s);
-    count += both && !excluded[s] ? 1 : 0;
-  }
-  return count;
 }
 
 Matrix3 SeenPlanes::contradiction_covariance(const StationMask& excluded, double time_s) const {

@@ -14,8 +14,8 @@ namespace pharos::network {
 /// position.
 class SeenPlanes {
  public:
-  /// A sweep that fits; `sigma_rad`: of what station and plane are wrong by; `whole`: every sensor was hit.
-  void saw(const LinearisedSweep& sweep, double sigma_rad, bool whole);
+  /// A sweep that fits; `sigma_rad`: of what station and plane are wrong by.
+  void saw(const LinearisedSweep& sweep, double sigma_rad);
   void saw(const FixPlane& plane, double sigma_rad);
   /// A sweep whose light does not fit: the body may be where it says.
   void refuse(const LinearisedSweep& sweep);
@@ -23,8 +23,6 @@ class SeenPlanes {
   void forget_contradictions(const PositionFix& fix);
   void forget_contradictions();
 
-  /// Stations, but those excluded, both of whose planes hit every sensor within `span_s`.
-  int stations_at_once(double span_s, double now_s, const StationMask& excluded) const;
   /// How far the refused sweeps of the last tenth of a second would move the body, m^2.
   Matrix3 contradiction_covariance(const StationMask& excluded, double time_s) const;
   /// What stations and planes are wrong by is the same in every sweep: it does not average out. Of the planes that saw
@@ -37,7 +35,6 @@ class SeenPlanes {
  private:
   struct Seen {
     LastTime last;                       // sweep
-    LastTime whole;                      // that hit every sensor
     Vector3 gradient = Vector3::Zero();  // of its angle by the position then
     double sigma_rad = 0.0;
     // How far along its gradient its last sweep puts the body, where it did not fit the filter.

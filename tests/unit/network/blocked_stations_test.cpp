@@ -226,49 +226,5 @@ TEST(BlockedStations, RowsOfWhichFilterAndPositionDifferSaySo) {
   EXPECT_LE(seen.beyond_position, 15);
 }
 
-// Sweeps from the end of a gap in all light, 75 ms in each half second, until the target is answered again.
-std::vector<int> sweeps_until_answered(std::uint32_t seed) {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> gauss(0.0, 1.0);
-  const HandMotion motion(random);
-  Stations stations = two_stations(Generation::kLighthouse2);
-  for (Station& station : stations) station.sigmas = StationSigmas{0.005, 0.0, kPlane_rad};
-  const auto tracker = std::make_unique<NetworkTracker>(stations, deck(), NetworkOptions{});
-  std::vector<int> counts;
-  int count = 0;
-  bool waiting = false;
-  for (int i = 0; i < 2000; ++i) {
-    const double time_s = 0.005 * i;
-    if (time_s > 0.9 && std::fmod(time_s, 0.5) < 0.075) {
-      count = 0;
-      waiting = true;
-      continue;
-    }
-    const auto station = static_cast<std::uint8_t>(i % 2);
-    const std::size_t plane = static_cast<std::size_t>(i / 2 % 2);
-    std::optional<NetworkResult> result;
-    for (const SensorPlacement& sensor : deck()) {
-      const double t = time_s + 1e-5 * sensor.sensor;
-      const Vector3 p = stations[station].T_world_station->inverse() * (motion.at(t) * sensor.position_m);
-      const double angle_rad = raw_angle(stations[station], plane, p) + kNoise_rad * gauss(random);
-      if (auto out = tracker->push(station, plane, {t, sensor.sensor, angle_rad})) result = out;
-    }
-    // The result is of the sweep before.
-    if (waiting && result && result->pose.ok() && !result->ambiguous && count > 0) {
-      counts.push_back(count);
-      waiting = false;
-    }
-    ++count;
-  }
-  return counts;
-}
-
-// A position of their own needs six sweeps.
-TEST(BlockedStations, AreAnsweredFromFourPlanesOnAfterAGapInAllLight) {
-  const std::vector<int> counts = sweeps_until_answered(603);
-  EXPECT_GT(counts.size(), 15U);
-  for (const int count : counts) EXPECT_LE(count, 5);
-}
-
 }  // namespace
 }  // namespace pharos::network
