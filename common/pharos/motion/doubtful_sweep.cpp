@@ -32,6 +32,7 @@ bool DoubtfulSweep::judge(std::optional<Hypothesis>& best, std::optional<Hypothe
 void take_over(std::optional<Hypothesis>& best, std::optional<Hypothesis>& alternative) {
   std::swap(best, alternative);
   if (alternative->withheld()) best->confirm_anew();
+  best->inherit_disputes(*alternative);
 }
 
 }  // namespace pharos::motion

@@ -26,7 +26,8 @@ class DoubtfulSweep {
   int sweeps_ = 0;  // by which it is still judged
 };
 
-/// The two change places; the one that takes over is confirmed anew where the other withheld what it took.
+/// The two change places; the one that takes over is confirmed anew where the other withheld what it took, and what
+/// spoke against the target in the other's sweeps does so still.
 void take_over(std::optional<Hypothesis>& best, std::optional<Hypothesis>& alternative);
 
 /// Difference of chi-squared from which the worse of two hypotheses is dropped: e^9 to one.

@@ -92,6 +92,10 @@ class Hypothesis {
   double dispute() const { return dispute_; }
   /// Sweeps since it began, or since one spoke strongly against the target; negative where its state is in doubt.
   int undisputed() const { return undisputed_; }
+  /// It takes over from one against which sweeps spoke not longer ago.
+  void inherit_disputes(const Hypothesis& other) {
+    undisputed_ = undisputed_ < other.undisputed_ ? undisputed_ : other.undisputed_;
+  }
   /// It takes over from one that withheld what it took: its state is in doubt.
   void confirm_anew();
   /// The last sweep was of coplanar sensors, and to which side they are tilted is not known yet: the attitude is no
@@ -132,6 +136,17 @@ class Hypothesis {
     double noise_degrees_of_freedom = 0.0;   // that it was estimated from
   };
 
+  // A body that is pushed after so many sweeps is not one that has just been found.
+  static constexpr int kSettled = 16;
+  // Range of the estimated own variance over the assumed one.
+  static constexpr double kMinLevel = 0.8, kMaxLevel = 1e4;
+  // What a sweep says beyond how it fits.
+  struct Objections {
+    bool leapt = false;     // no body moves so
+    bool of_state = false;  // the state may be that of wrong sweeps before
+    bool pushed = false;    // a quiet body was
+  };
+
   Hypothesis() = default;
   StationState& station_state(Observer observer) { return station_states_[static_cast<std::size_t>(observer)]; }
   const StationState& station_state(Observer observer) const {
@@ -141,7 +156,7 @@ class Hypothesis {
   void leave_out();
   void judge_tilt(bool both_sides_followed);
   void see_tilt();
-  void dispute(bool leapt, bool in_doubt, bool pushed);
+  void dispute(const Objections& objections);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
               const StateEstimate& prediction, const SweepNoise& now);
   void learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const;

@@ -11,7 +11,33 @@ namespace {
 // No sweep tells more than this (one in ten million by chance): it is of another motion.
 constexpr double kMaxSideChi2 = 40.0;
 
+// Coplanar sensors whose attitude is known no better than this may be tilted to the other side as well. After a start
+// only the tilt itself speaks for the side (0.03 rad about each of two axes), later the motion before does too; and the
+// hypothesis of the other side, which is not followed before a station of unknown calibration.
+constexpr double kMaxTiltAtStart_rad = 0.042, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
+// Sweeps of relief in a row that tell the side: one of each rotor.
+constexpr int kTellingSide = 2;
+
 }  // namespace
+
+// Mirrored, coplanar sensors fit as well. Sensors with relief tell the side, once each rotor has seen them: one alone
+// makes the attitude certain about its own axis, and leaves an error about the other that the stated sigma no longer
+// holds.
+void Hypothesis::judge_tilt(bool both_sides_followed) {
+  tilt_unknown_ = false;
+  if (fit_.used.empty() || !filter_.steady()) return;
+  if (!coplanar_) {
+    if (++sweeps_of_relief_ >= kTellingSide) side_doubtful_ = false;
+    tilt_unknown_ = side_doubtful_;
+    return;
+  }
+  sweeps_of_relief_ = 0;
+  const Matrix6 known = state_estimate_.covariance - systematic_of(observer_);
+  const double square = known.topLeftCorner<3, 3>().trace();
+  const double max_tilt_rad = both_sides_followed || sweeps_ > kSettled ? kMaxTilt_rad : kMaxTiltAtStart_rad;
+  tilt_unknown_ = square > max_tilt_rad * max_tilt_rad;
+  side_doubtful_ = square > kTiltAlone_rad * kTiltAlone_rad;
+}
 
 void Hypothesis::see_tilt() {
   tilt_.reset();

@@ -54,8 +54,12 @@ class ImmFilter {
                  Observer observer = Observer::kReference);
 
   const std::array<double, kModels>& probability() const { return probability_; }
+  /// Hardly any of it is of the two models of high process noise: no hand shakes the body, which has another attitude
+  /// error in every sweep then.
+  bool steady() const { return probability_[kMoving] + probability_[kMoving - 1] < kShaken; }
 
  private:
+  static constexpr double kShaken = 0.3;
   using Flow = std::array<std::array<double, kModels>, kModels>;
   struct Seen {
     LighthouseFromBody pose;

@@ -193,6 +193,7 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   if (!answers(best)) return pose::Refusal::kPoorFit;
   if (contradictions_.suspect()) return pose::Refusal::kSuspectTarget;
   if (!trusted(station, best)) return pose::Refusal::kUnconfirmed;
+  if (&best != pair_.joint() && pair_.contradicted(result.station, tracks())) return pose::Refusal::kUnconfirmed;
   result.observations = static_cast<int>(fit.used.size());
   result.time_ticks = last_used_hit(bearings, fit.used);
 

@@ -119,13 +119,24 @@ void StationPair::take(const lighthouse::SweepBearings& bearings, Axis axis, Obs
   doubt_.judge(joint_, without_);
 }
 
-// Compares the relative pose with the present estimates of both tracks.
-bool StationPair::fits(const Known& known, const Tracks& tracks) const {
+// Squared distance of the present estimates of both tracks, by way of the relative pose.
+double StationPair::apart_square(const Known& known, const Tracks& tracks) const {
   const std::int64_t now = now_of(tracks);
   const StateEstimate first = tracks[0]->best()->predicted(now), second = tracks[1]->best()->predicted(now);
   const SecondView view(first.pose, known.T_1_0);
   const Matrix6 allowed = seen_covariance(view, first.covariance, {known.T_1_0, known.covariance}) + second.covariance;
-  return mahalanobis_squared(second.pose, view.pose, allowed) < kPairContradiction;
+  return mahalanobis_squared(second.pose, view.pose, allowed);
+}
+
+bool StationPair::contradicted(std::uint8_t station, const Tracks& tracks) const {
+  const Hypothesis *own = tracks[station]->best(), *other = tracks[1U - station]->best();
+  if (!surveyed_ || survey_refused_ || own == nullptr || other == nullptr || !other->confirmed() || other->diverged())
+    return false;
+  if (std::abs(ticks_to_seconds(own->time_ticks() - other->last_used_ticks())) > kFreshPair_s) return false;
+  const Matrix6 &of_own = own->state_estimate().covariance, &of_other = other->state_estimate().covariance;
+  return rotation_variance(of_other) < rotation_variance(of_own) &&
+         position_variance(of_other) < position_variance(of_own) &&
+         !(apart_square(*surveyed_, tracks) < kPairContradiction);
 }
 
 const StationPair::Known* StationPair::known() const {
@@ -135,7 +146,8 @@ const StationPair::Known* StationPair::known() const {
 
 void StationPair::start(const Tracks& tracks) {
   const bool together = settled_together(tracks);
-  if (const Known* there = known(); there != nullptr && together && !fits(*there, tracks)) {
+  if (const Known* there = known();
+      there != nullptr && together && !(apart_square(*there, tracks) < kPairContradiction)) {
     if (++contradictions_[0] < kContradictions) return;
     contradictions_ = {};
     ++refusals_;

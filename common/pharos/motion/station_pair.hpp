@@ -36,6 +36,9 @@ class StationPair {
 
   /// Null while there is none.
   const Hypothesis* joint() const { return joint_ ? &*joint_ : nullptr; }
+  /// The other station's own track knows the pose better, and contradicts this one's by way of the relative pose
+  /// that was measured: a learnt one may be what is wrong.
+  bool contradicted(std::uint8_t station, const Tracks& tracks) const;
   /// Best estimate of the pose of slot 1's station; only while there is a joint hypothesis.
   std::optional<StationRelative> relative() const;
   /// The relative pose that was measured contradicts what both stations see, and is not used.
@@ -60,7 +63,7 @@ class StationPair {
   void start_from_both(const Tracks& tracks);
   void remember();
   void watch(std::uint8_t station, const Tracks& tracks);
-  bool fits(const Known& known, const Tracks& tracks) const;
+  double apart_square(const Known& known, const Tracks& tracks) const;
 
   std::optional<Hypothesis> joint_, without_;  // without a doubtful sweep, which joint_ has taken
   DoubtfulSweep doubt_;

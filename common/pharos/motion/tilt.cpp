@@ -26,9 +26,10 @@ std::optional<Tilt> Tilt::of(const SweepFit& fit, const SensorPlane& plane, cons
 
 Tilt::Tilt(const LighthouseFromBody& pose, const Vector3& body_centre_m, const Vector3& body_normal)
     : body_normal_(body_normal), body_centre_m_(body_centre_m) {
-  const Vector3 sight = (pose.R * body_centre_m + pose.t).normalized(), normal = pose.R * body_normal;
-  across_sight_ = reflection(sight);
-  const Vector3 turn = sight.cross(normal);
+  const Vector3 normal = pose.R * body_normal;
+  sight_ = (pose.R * body_centre_m + pose.t).normalized();
+  across_sight_ = reflection(sight_);
+  const Vector3 turn = sight_.cross(normal);
   const double sine = turn.norm();
   apart_rad_ = 2.0 * std::asin(std::min(sine, 1.0));
   axis_ = sine > 0.0 ? Vector3(turn / sine) : Vector3(Vector3::Zero());
@@ -45,7 +46,17 @@ Matrix6 Tilt::second_order(const LighthouseFromBody& pose, const Matrix3& attitu
   const double towards_zero = (tilt - std::sqrt(std::max(reach, 0.0))) / kReach;
   Vector6 turn;
   turn << axis_, (pose.R * body_centre_m_).cross(axis_);
-  return std::max(towards_zero * towards_zero - variance, 0.0) * turn.lazyProduct(turn.transpose());
+  Matrix6 lacking = std::max(towards_zero * towards_zero - variance, 0.0) * turn.lazyProduct(turn.transpose());
+  lacking.bottomRightCorner<3, 3>() +=
+      range_variance(pose, attitude_covariance) * sight_.lazyProduct(sight_.transpose());
+  return lacking;
+}
+
+double Tilt::range_variance(const LighthouseFromBody& pose, const Matrix3& attitude_covariance) const {
+  const Matrix3 across = Matrix3::Identity() - sight_.lazyProduct(sight_.transpose());
+  const Matrix3 error = across.lazyProduct(Matrix3(attitude_covariance.lazyProduct(across)));
+  const double trace = error.trace();
+  return 0.25 * (2.0 * error.squaredNorm() + trace * trace) * (pose.R * body_centre_m_ + pose.t).squaredNorm();
 }
 
 LighthouseFromBody Tilt::mirrored(const LighthouseFromBody& pose) const {

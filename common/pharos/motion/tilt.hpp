@@ -31,7 +31,7 @@ class Tilt {
   /// That rotation over its standard deviation, squared.
   double apart_square(const Matrix3& attitude_covariance) const;
   /// What the covariance of a pose lacks, as the tilt shows in its square: known to 2 tilt sigma, the square leaves the
-  /// tilt itself more than sigma towards zero.
+  /// tilt itself more than sigma towards zero, and the range takes the square of what the attitude is off by.
   Matrix6 second_order(const LighthouseFromBody& pose, const Matrix3& attitude_covariance) const;
   LighthouseFromBody mirrored(const LighthouseFromBody& pose) const;
   /// Derivative of the mirrored pose's error by the pose's; the same for rates.
@@ -40,6 +40,12 @@ class Tilt {
  private:
   Tilt(const LighthouseFromBody& pose, const Vector3& body_centre_m, const Vector3& body_normal);
 
+  /// An attitude that is off by d across the line of sight makes the pattern of the sensors d.d/2 of its size smaller
+  /// in one direction, in every sweep alike: a linear filter takes that for range, r d.d/2 at most. E (r d.d/2)^2 for
+  /// d ~ N(0, A): r^2 (2 tr A^2 + (tr A)^2) / 4, m^2.
+  double range_variance(const LighthouseFromBody& pose, const Matrix3& attitude_covariance) const;
+
+  Vector3 sight_;          // to the sensors
   Matrix3 across_sight_;   // reflection at the plane across the line of sight
   Vector3 body_normal_;    // of the sensors' plane
   Vector3 body_centre_m_;  // of the sensors

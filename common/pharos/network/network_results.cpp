@@ -8,7 +8,6 @@
 namespace pharos::network {
 namespace {
 
-constexpr double kUnseen_m = 0.1;
 // Squared distance of two estimates of a position up to which they agree. The first sweeps of a station that comes back
 // are explained by a wrong velocity as well: only what is expected by chance, three degrees of freedom, counts then.
 constexpr double kAgreesChi2 = 9.0, kExpectedChi2 = 3.0;
@@ -35,18 +34,17 @@ NetworkResult NetworkTracker::refused(const PlaneSweep& sweep, pose::Refusal why
 NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad) const {
   NetworkResult out = refused(sweep, pose::Refusal::kUnconfirmed);
   // Stations that contradict each other tell nothing at once.
-  if (!fix_ || contradictions_ > 0 || disputed()) return out;
+  if (!fix_ || watch_.contradictory() || disputed()) return out;
   out.time_s = time_s_;  // of the latest sweep: this one may have begun before another one that is over
   const NetworkState& state = filter_.mean();
   const Vector3& position_m = fix_->position_m;
   out.pose = WorldFromBody{state.pose.R, position_m};
   out.covariance.topLeftCorner<3, 3>() = attitude_covariance(doubt_rad);
   out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->doubted_covariance();
-  if (!fix_->sound) out.covariance.bottomRightCorner<3, 3>() += contradiction_covariance(out.time_s);
+  if (!fix_->sound)
+    out.covariance.bottomRightCorner<3, 3>() += planes_.contradiction_covariance(watch_.excluded(), out.time_s);
   out.flags = kFused;
-  if (std::any_of(watch_.begin(), watch_.end(), [](const StationWatch& s) { return s.excluded; })) {
-    out.flags |= kStationExcluded;
-  }
+  if (watch_.any_excluded()) out.flags |= kStationExcluded;
   out.ambiguous = ambiguous_;
   out.second = second_;
   out.delta_chi2 = delta_chi2_;
@@ -71,46 +69,14 @@ double NetworkTracker::bearing_sigma(std::size_t station) const {
   return std::max(1e-6, stations_[station].sigmas.value_or(options_.noise.unstated).bearing_rad(range_m));
 }
 
-void NetworkTracker::saw(const LinearisedSweep& sweep) {
-  StationWatch& station = watch_[sweep.station];
-  station.plane_s[sweep.plane] = sweep.time_s;
-  station.gradient[sweep.plane] = sweep.gradient;
-  station.contradicted_s[sweep.plane] = -1e9;
-  station.sigma_rad[sweep.plane] = bearing_sigma(sweep.station);
-}
+void NetworkTracker::saw(const LinearisedSweep& sweep) { planes_.saw(sweep, bearing_sigma(sweep.station)); }
 
 void NetworkTracker::saw(const PositionFix& fix) {
-  for (const FixPlane& seen : fix.planes) {
-    StationWatch& station = watch_[seen.station];
-    if (seen.time_s < station.plane_s[seen.plane]) continue;
-    station.plane_s[seen.plane] = seen.time_s;
-    station.gradient[seen.plane] = seen.gradient;
-    station.sigma_rad[seen.plane] = bearing_sigma(seen.station);
-  }
+  for (const FixPlane& plane : fix.planes) planes_.saw(plane, bearing_sigma(plane.station));
 }
 
-void NetworkTracker::forget_contradictions(const PositionFix& fix) {
-  for (const FixPlane& seen : fix.planes) watch_[seen.station].contradicted_s[seen.plane] = -1e9;
-}
-
-// A plane whose light does not fit: the body may be where it says.
-void NetworkTracker::refuse(const LinearisedSweep& sweep) {
-  if (sweep.hits() == 0) return;
-  const double square = std::max(1e-9, sweep.gradient.squaredNorm());
-  StationWatch& station = watch_[sweep.station];
-  station.contradiction_m[sweep.plane] = sweep.residual.mean() / square * sweep.gradient;
-  station.contradicted_s[sweep.plane] = sweep.time_s;
-}
-
-Matrix3 NetworkTracker::contradiction_covariance(double time_s) const {
-  Matrix3 sum = Matrix3::Zero();
-  for (const StationWatch& station : watch_) {
-    for (std::size_t k = 0; k < kPlanes; ++k) {
-      if (station.excluded || time_s - station.contradicted_s[k] > kFresh_s) continue;
-      sum += station.contradiction_m[k] * station.contradiction_m[k].transpose();
-    }
-  }
-  return sum;
+Matrix3 NetworkTracker::station_covariance(double time_s, const Vector3& body_m) const {
+  return planes_.station_covariance(stations_, options_.noise.unstated, watch_.excluded(), time_s, body_m);
 }
 
 NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
@@ -125,14 +91,10 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   const HitVector left = sweep.residual - sweep.rows.lazyProduct(state.difference(sweep.at).head<kObserved>());
   out.residual_rms_rad = std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
   if (sweep.hits() < sweep.sensors) out.flags |= kOutliers;
-  int fresh = 0;
-  for (const StationWatch& station : watch_) {
-    if (station.excluded) out.flags |= kStationExcluded;
-    if (!station.excluded && sweep.time_s - station.seen_s < kFresh_s) ++fresh;
-  }
-  if (fresh > 1) out.flags |= kFused;
-  out.covariance.bottomRightCorner<3, 3>() +=
-      station_covariance(sweep.time_s, state.pose.t) + contradiction_covariance(sweep.time_s);
+  if (watch_.any_excluded()) out.flags |= kStationExcluded;
+  if (watch_.fresh(sweep.time_s) > 1) out.flags |= kFused;
+  out.covariance.bottomRightCorner<3, 3>() += station_covariance(sweep.time_s, state.pose.t) +
+                                              planes_.contradiction_covariance(watch_.excluded(), sweep.time_s);
   // Without two stations at once the light does not tell how a small target moves along the line of sight.
   if (!fix_ && !tells_range(target_, options_.noise)) {
     const NetworkState& widest = filter_.widest();
@@ -150,7 +112,7 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   const double rotation = std::sqrt(out.covariance.topLeftCorner<3, 3>().trace());
   const double position = std::sqrt(out.covariance.bottomRightCorner<3, 3>().trace());
   // One station does not tell the range of a small target.
-  const bool ranged = sweep.time_s - fixed_s_ < kCoast_s || tells_range(target_, options_.noise);
+  const bool ranged = fixed_.within(kCoast_s, sweep.time_s) || tells_range(target_, options_.noise);
   const bool certain = ranged && rotation <= options_.max_rotation_rad && position <= options_.max_position_m;
   if (!(out.residual_rms_rad < kWorstResidual_rad)) {
     out.pose = pose::Refusal::kPoorFit;
@@ -165,41 +127,6 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   out.second = second_;
   out.delta_chi2 = delta_chi2_;
   return out;
-}
-
-// What stations and planes are wrong by is the same in every sweep: it does not average out. Of the planes that saw the
-// body within a tenth of a second, each off by its own sigma, a position's part of it: (J^T W J)^-1. And what the room
-// that these stations span is deformed by at that place; or, where their joint errors are known, what each of those
-// moves the position by.
-Matrix3 NetworkTracker::station_covariance(double time_s, const Vector3& body_m) const {
-  Matrix3 information = Matrix3::Zero(), deformation = Matrix3::Zero();
-  Eigen::Matrix<double, 3, static_cast<int>(kMaxErrorModes)> pulled;  // by each mode
-  pulled.setZero();
-  double seeing = 0.0;
-  for (std::size_t s = 0; s < stations_.size(); ++s) {
-    const StationWatch& station = watch_[s];
-    if (!station.excluded && time_s - std::max(station.plane_s[0], station.plane_s[1]) <= kFresh_s) {
-      deformation += stations_[s].sigmas.value_or(options_.noise.unstated).deformation(body_m);
-      seeing += 1.0;
-    }
-    for (std::size_t k = 0; k < kPlanes; ++k) {
-      if (station.excluded || time_s - station.plane_s[k] > kFresh_s) continue;
-      const Vector3& gradient = station.gradient[k];
-      const Vector3 weighted = gradient / (station.sigma_rad[k] * station.sigma_rad[k]);
-      information += weighted * gradient.transpose();
-      const Vector3 by_turn = (body_m - stations_[s].T_world_station->t).cross(gradient);
-      const ErrorModes& modes = stations_[s].modes;
-      for (std::size_t m = 0; m < modes.size(); ++m) {
-        pulled.col(static_cast<Eigen::Index>(m)) +=
-            weighted * (by_turn.dot(modes[m].head<3>()) + gradient.dot(modes[m].tail<3>()));
-      }
-    }
-  }
-  // Along what no plane sees now, the limits of a result hold.
-  information.diagonal().array() += 1.0 / (kUnseen_m * kUnseen_m);
-  const Matrix3 covariance = information.inverse();
-  pulled = covariance.lazyProduct(pulled).eval();
-  return covariance + deformation / std::max(1.0, seeing) + pulled.lazyProduct(pulled.transpose());
 }
 
 }  // namespace pharos::network

@@ -26,7 +26,7 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
   running_ = true;
   ++counters_.starts;
   // What did not fit the state before says nothing of this one.
-  for (StationWatch& station : watch_) station.contradicted_s = {-1e9, -1e9};
+  planes_.forget_contradictions();
   time_s_ = recent_[0].time_s();
   accepted_s_ = checked_s_ = started_s_ = time_s;
   for (std::size_t i = 0; i < recent_.size(); ++i) {
@@ -34,10 +34,10 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
     const double now_s = std::max(time_s_, sweep.time_s());
     filter_.predict(now_s - time_s_);
     time_s_ = now_s;
-    if (watch_[sweep.station].excluded) continue;
+    if (watch_.excluded(sweep.station)) continue;
     const LinearisedSweep linearised = linearise(sweep, stations_, target_, filter_.mean(), now_s, options_.noise);
     if (!fits(linearised)) {
-      refuse(linearised);
+      planes_.refuse(linearised);
       continue;
     }
     filter_.correct(linearised);
@@ -67,7 +67,7 @@ bool NetworkTracker::try_start(double time_s) {
   if (const auto fix = fix_of(used_recent(), stations_, target_, near, latest_s(), options_.noise, 0.0)) {
     pose.t = fix->position_m;
   }
-  for (StationWatch& station : watch_) station.refused = station.accepted = 0;
+  watch_.begin();
   start_at(pose, time_s);
   ambiguous_ = choice.second_cost - choice.cost < kAmbiguousDeltaChi2;
   second_ = choice.second;
@@ -86,7 +86,7 @@ double NetworkTracker::cost_of(const WorldFromBody& start, WorldFromBody& refine
     double at_s = recent_[0].time_s();
     for (std::size_t i = 0; i < recent_.size(); ++i) {
       const PlaneSweep& sweep = recent_[i];
-      if (watch_[sweep.station].excluded) continue;
+      if (watch_.excluded(sweep.station)) continue;
       const double now_s = std::max(at_s, sweep.time_s());
       trial_.predict(now_s - at_s);
       at_s = now_s;

@@ -20,6 +20,8 @@ struct NetworkState {
   Vector6 acceleration = Vector6::Zero();  // rad/s^2, m/s^2
   StateMatrix covariance = StateMatrix::Zero();
 
+  /// The sum of its three components, m^2.
+  double position_variance() const { return covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3).trace(); }
   /// Adds an error vector to the means.
   void move_by(const StateVector& delta);
   /// The error vector that takes `from` to this state.

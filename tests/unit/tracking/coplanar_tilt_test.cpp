@@ -22,6 +22,15 @@ TEST(CoplanarTilt, ThatPassesZeroIsAmbiguousUntilItsSideIsTold) {
   EXPECT_GT(ambiguous, 0);
 }
 
+// The tilt passes zero and grows about another axis than the one that is followed: 5.6 deg in place of 3, with a stated
+// 2.6. Both shorten the pattern of the sensors, one of them in what the filter takes for range: 58 answers were up to
+// 23 mm off at a stated 4.
+TEST(CoplanarTilt, ThatIsWrongIsInTheRangesSigma) {
+  const Count count = score_of(Fault::kNone, 1.0, 0.0, 15237, 15237, tilting_plate);
+  EXPECT_EQ(count.wrong, 0);
+  EXPECT_GT(count.ok, 0.8 * count.answers);
+}
+
 // Seen alone for a second and more of a flight of all twelve; in 14294 after two wrong sweeps of a rotor.
 TEST(CoplanarTilt, OfAFlightIsNotTakenForItsMirrorImage) {
   const Count sound = score_of(Fault::kNone, 1.0, 0.0, 14223, 14223);
