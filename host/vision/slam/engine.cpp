@@ -95,7 +95,6 @@ KeyframeId Engine::make_keyframe(Frame& frame) {
   map_.update_neighbours(id);
   add_stereo_points(map_, id, frontend_.camera());
   add_patches(map_, id, frontend_.pyramid());
-  add_windows(map_, id, frontend_.pyramid());
   const Keyframe& keyframe = map_.keyframes.at(id);
   for (const PointId point : keyframe.points) {
     if (point != kNone && map_.points.at(point).seen_by.size() == 1) recent_.push_back(point);
@@ -209,7 +208,6 @@ void Engine::map_keyframe(KeyframeId id) {
       }
     }
     fuse_with_neighbours(map_, id, frontend_.camera());
-    align_observations(map_, id, frontend_.camera());
     problem = local_problem(map_, id, kLocalKeyframes);
     corrections = corrections_;
   }

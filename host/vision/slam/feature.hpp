@@ -50,7 +50,6 @@ struct Feature {
   /// 1 sigma of a coordinate, px of its level: that of a corner, or smaller where it was aligned with the patch of its
   /// point (patch.hpp).
   double sigma_px = kCornerSigma_px;
-  bool direct = false;     ///< found by its point's patch, not as a corner
   int level = 0;           ///< of the pyramid
   double angle_rad = 0.0;  ///< of the patch, from +u towards +v
   Descriptor descriptor;

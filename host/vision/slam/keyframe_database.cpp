@@ -16,9 +16,7 @@ constexpr std::size_t kGroup = 10;
 WordVector KeyframeDatabase::words_of(const std::vector<Feature>& features) const {
   std::vector<Descriptor> descriptors;
   descriptors.reserve(features.size());
-  for (const Feature& feature : features) {
-    if (!feature.direct) descriptors.push_back(feature.descriptor);
-  }
+  for (const Feature& feature : features) descriptors.push_back(feature.descriptor);
   return vocabulary_.words_of(descriptors);
 }
 

@@ -223,9 +223,8 @@ void Map::forget_removed(KeyframeId kept) {
 
 int Map::tracked_points(const Keyframe& keyframe, std::size_t observers) const {
   int count = 0;
-  for (std::size_t k = 0; k < keyframe.points.size(); ++k) {
-    const PointId point = keyframe.points[k];
-    if (point != kNone && !keyframe.features[k].direct && points.at(point).seen_by.size() >= observers) ++count;
+  for (const PointId point : keyframe.points) {
+    if (point != kNone && points.at(point).seen_by.size() >= observers) ++count;
   }
   return count;
 }

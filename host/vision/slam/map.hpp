@@ -19,9 +19,6 @@ struct Keyframe : Frame {
   /// Covariance relative to the first keyframe, as of keyframe_covariances.
   Matrix6 covariance = Matrix6::Zero();
   WordVector words;
-  /// Pixels around each feature, to align observations that mapping adds; empty: none.
-  std::vector<std::optional<FeatureWindow>> windows;
-  std::vector<LevelPlaces> places;  ///< of the levels
   /// The covisibility graph: number of points shared with each keyframe; at least kCovisible.
   std::map<KeyframeId, int> neighbours;
   /// The spanning tree; the first one has no parent.

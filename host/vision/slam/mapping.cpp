@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/vision/slam/patch_alignment.hpp"
 #include "host/vision/slam/projection_match.hpp"
 
 namespace pharos::slam {
@@ -89,40 +88,6 @@ void add_patches(Map& map, KeyframeId id, const std::vector<PyramidLevel>& pyram
     point.patch = cut_patch(id, keyframe.features[k], pyramid);
     if (point.patch) keyframe.features[k].sigma_px = kPatchSigma_px;
   }
-}
-
-void add_windows(Map& map, KeyframeId id, const std::vector<PyramidLevel>& pyramid) {
-  Keyframe& keyframe = map.keyframes.at(id);
-  for (const Feature& feature : keyframe.features) keyframe.windows.push_back(cut_window(feature, pyramid));
-  for (int level = 0; level < kLevels; ++level) keyframe.places.emplace_back(pyramid, level);
-}
-
-namespace {
-
-int align_keyframe(Map& map, KeyframeId id, const StereoCamera& camera) {
-  Keyframe& keyframe = map.keyframes.at(id);
-  int aligned = 0;
-  for (std::size_t k = 0; k < keyframe.windows.size(); ++k) {
-    Feature& feature = keyframe.features[k];
-    if (!feature.is_corner() || !keyframe.windows[k]) continue;
-    const MapPoint* point = map.find_point(keyframe.points[k]);
-    if (point == nullptr || !point->patch) continue;
-    const auto found =
-        find_patch(*point->patch, keyframe.pose * map.pose_of(point->patch->keyframe).inverse(), camera, feature,
-                   keyframe.places[static_cast<std::size_t>(feature.level)], *keyframe.windows[k]);
-    if (!found) continue;
-    move_to_patch(feature, *found, camera);
-    ++aligned;
-  }
-  return aligned;
-}
-
-}  // namespace
-
-int align_observations(Map& map, KeyframeId id, const StereoCamera& camera) {
-  int aligned = align_keyframe(map, id, camera);
-  for (const KeyframeId near : map.best_neighbours(id, kFuseWith)) aligned += align_keyframe(map, near, camera);
-  return aligned;
 }
 
 int fuse_points(Map& map, const std::vector<PointId>& points, KeyframeId into, const StereoCamera& camera,

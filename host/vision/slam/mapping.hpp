@@ -31,13 +31,6 @@ void fuse_with_neighbours(Map& map, KeyframeId keyframe, const StereoCamera& cam
 int fuse_points(Map& map, const std::vector<PointId>& points, KeyframeId into, const StereoCamera& camera,
                 double radius_px);
 
-/// Cuts the keyframe's windows.
-void add_windows(Map& map, KeyframeId keyframe, const std::vector<PyramidLevel>& pyramid);
-
-/// Aligns observations of the keyframe and its covisible ones that are still corners with the patches of their points.
-/// Returns how many.
-int align_observations(Map& map, KeyframeId keyframe, const StereoCamera& camera);
-
 /// Removes recent points that were found in less than a quarter of the frames in which they should be visible, or that
 /// fewer than three keyframes observe three keyframes after their creation.
 void cull_points(Map& map, std::vector<PointId>& recent);

@@ -10,16 +10,11 @@ namespace {
 
 constexpr int kHalf_px = 4;  // of the square compared: 9x9
 constexpr int kSide_px = 2 * kHalf_px + 1;
-constexpr int kSteps = 12;
+constexpr int kSteps = 8;
 constexpr float kEnough_px = 0.01F;
 constexpr float kMaxMove_px = 1.5F;  // a larger one means another corner
-// Squared grey values a pixel, over the square, weighted: with less the position is undetermined.
-constexpr float kMinSlopes = 40.0F;
-// Standard deviation of the weights about the middle: the surface that is followed is the one there.
-constexpr float kNear_px = 3.5F;
-// Weight a quarter, in robust sigmas of the residuals; and the least sigma, grey values.
-constexpr float kUnlike = 1.5F, kMinSigma = 2.0F;
-constexpr float kMinWeight = 15.0F;
+// Squared grey values a pixel, over the square: with less the position is undetermined.
+constexpr float kMinSlopes = 81.0F;
 constexpr float kMaxDissimilarity = 0.2F;  // of the square's own variance
 constexpr float kMinContrast = 0.4F, kMaxContrast = 2.5F;
 constexpr double kMinArea = 0.4, kMaxArea = 2.5;  // ratio of a pixel's areas in the two images
@@ -47,6 +42,7 @@ std::optional<Matrix2d> step_of(const Patch& patch, const Pose<frame::Camera, fr
 // The patch as predicted in the frame: grey values minus their mean, and their gradient along u and v.
 struct Template {
   std::array<float, kSide_px * kSide_px> value, along_u, along_v;
+  float variance = 0.0F;
 };
 
 bool sample(const Patch& patch, const Matrix2d& to_patch, Template& out) {
@@ -79,68 +75,23 @@ bool sample(const Patch& patch, const Matrix2d& to_patch, Template& out) {
     sum += wide[middle];
   }
   const float mean = sum / static_cast<float>(out.value.size());
-  for (float& value : out.value) value -= mean;
+  out.variance = 0.0F;
+  for (float& value : out.value) {
+    value -= mean;
+    out.variance += value * value;
+  }
   return true;
 }
 
-// Weights of the pixels: surfaces in front of or behind the patch's, and what light does to a part of it, count less.
-using Weights = std::array<float, kSide_px * kSide_px>;
-
-const Weights& weights_about_middle() {
-  static const Weights weights = [] {
-    Weights out;
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      const auto x = static_cast<float>(k % kSide_px) - kHalf_px, y = static_cast<float>(k / kSide_px) - kHalf_px;
-      out[k] = std::exp(-0.5F * (x * x + y * y) / (kNear_px * kNear_px));
-    }
-    return out;
-  }();
-  return weights;
-}
-
-// Squares of the residuals, each the mean of a pixel's and its neighbours': surfaces are regions.
-Weights mean_squares(const Weights& residuals) {
-  Weights rows, out;
-  const auto sum_of = [](const auto& value, int middle) {
-    return value(std::max(0, middle - 1)) + value(middle) + value(std::min(kSide_px - 1, middle + 1));
-  };
-  for (int v = 0; v < kSide_px; ++v) {
-    const float* row = residuals.data() + v * kSide_px;
-    for (int u = 0; u < kSide_px; ++u) {
-      rows[static_cast<std::size_t>(v * kSide_px + u)] = sum_of([&](int k) { return row[k] * row[k]; }, u);
-    }
-  }
-  for (int v = 0; v < kSide_px; ++v) {
-    for (int u = 0; u < kSide_px; ++u) {
-      const auto above = [&](int k) { return rows[static_cast<std::size_t>(k * kSide_px + u)]; };
-      out[static_cast<std::size_t>(v * kSide_px + u)] = sum_of(above, v) / 9.0F;
-    }
-  }
-  return out;
-}
-
-// By Geman and McClure's weights of the residuals.
-Weights weights_of(const Weights& residuals) {
-  Weights squares = mean_squares(residuals), sorted = squares;
-  const auto middle = sorted.begin() + sorted.size() / 2;
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  constexpr float kOfMedian = 1.4826F * 1.4826F;
-  const float limit = kUnlike * kUnlike * std::max(kMinSigma * kMinSigma, kOfMedian * *middle);
-  for (std::size_t k = 0; k < squares.size(); ++k) {
-    const float like = limit / (limit + squares[k]);
-    squares[k] = weights_about_middle()[k] * like * like;
-  }
-  return squares;
-}
-
-// r = I(place) - contrast T - brightness, its J^T W r.
-bool compare(const Template& patch, const Weights& weights, ImageView<const std::uint8_t> image, const Vector2& place,
-             float contrast, float brightness, Eigen::Vector4f& gradient, Weights& residuals) {
+// J^T r and r^T r of r = I(place) - contrast T - brightness.
+bool compare(const Template& patch, ImageView<const std::uint8_t> image, const Vector2& place, float contrast,
+             float brightness, Eigen::Vector4f& gradient, float& residual_variance) {
   const double u = place.x() - kHalf_px, v = place.y() - kHalf_px;
   if (!(u >= 0.0 && v >= 0.0 && u + kSide_px < image.width_px && v + kSide_px < image.height_px)) return false;
   const auto whole_u = static_cast<int>(u), whole_v = static_cast<int>(v);
   const auto fu = static_cast<float>(u - whole_u), fv = static_cast<float>(v - whole_v);
   gradient.setZero();
+  residual_variance = 0.0F;
   for (int y = 0; y < kSide_px; ++y) {
     const std::uint8_t* top = image.row(whole_v + y) + whole_u;
     const std::uint8_t* bottom = image.row(whole_v + y + 1) + whole_u;
@@ -152,29 +103,23 @@ bool compare(const Template& patch, const Weights& weights, ImageView<const std:
     for (std::size_t x = 0; x < kSide_px; ++x) {
       const float seen = between[x] + fu * (between[x + 1] - between[x]);
       const float r = seen - contrast * patch.value[row + x] - brightness;
-      residuals[row + x] = r;
-      const float weighted = weights[row + x] * r;
-      gradient[0] += patch.along_u[row + x] * weighted;
-      gradient[1] += patch.along_v[row + x] * weighted;
-      gradient[2] -= patch.value[row + x] * weighted;
-      gradient[3] -= weighted;
+      gradient[0] += patch.along_u[row + x] * r;
+      gradient[1] += patch.along_v[row + x] * r;
+      gradient[2] -= patch.value[row + x] * r;
+      gradient[3] -= r;
+      residual_variance += r * r;
     }
   }
   return true;
 }
 
-Eigen::Matrix4f squares_of(const Template& patch, const Weights& weights) {
+Eigen::Matrix4f squares_of(const Template& patch) {
   Eigen::Matrix4f H = Eigen::Matrix4f::Zero();
   for (std::size_t k = 0; k < patch.value.size(); ++k) {
     const Eigen::Vector4f J(patch.along_u[k], patch.along_v[k], -patch.value[k], -1.0F);
-    H.noalias() += weights[k] * J * J.transpose();
+    H.noalias() += J * J.transpose();
   }
   return H;
-}
-
-// Smaller eigenvalue of the gradients' squares.
-float slopes_of(const Eigen::Matrix4f& H) {
-  return 0.5F * (H(0, 0) + H(1, 1) - std::hypot(H(0, 0) - H(1, 1), 2.0F * H(0, 1)));
 }
 
 }  // namespace
@@ -202,86 +147,42 @@ std::optional<Patch> cut_patch(KeyframeId keyframe, const Feature& feature, cons
   return patch;
 }
 
-std::optional<FeatureWindow> cut_window(const Feature& feature, const std::vector<PyramidLevel>& pyramid) {
-  if (pyramid.empty()) return std::nullopt;
-  const ImageView<const std::uint8_t> image = pyramid[static_cast<std::size_t>(feature.level)].image;
-  const Vector2 place = LevelPlaces(pyramid, feature.level).on_level(feature.pixel);
-  constexpr int kReach = FeatureWindow::kReach_px;
-  const auto u = static_cast<int>(std::lround(place.x())) - kReach,
-             v = static_cast<int>(std::lround(place.y())) - kReach;
-  constexpr int kSide = FeatureWindow::kSide_px;
-  if (u < 0 || v < 0 || u + kSide > image.width_px || v + kSide > image.height_px) return std::nullopt;
-  FeatureWindow window;
-  window.first_px = Vector2(u, v);
-  auto out = window.pixels.begin();
-  for (int row = v; row < v + kSide; ++row) out = std::copy_n(image.row(row) + u, kSide, out);
-  return window;
-}
-
-namespace {
-
-std::optional<FoundPatch> find_in(ImageView<const std::uint8_t> image, const Vector2& start, double scale,
-                                  const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
-                                  const StereoCamera& camera, const Feature& feature) {
+std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
+                                     const StereoCamera& camera, const Feature& feature,
+                                     const std::vector<PyramidLevel>& pyramid) {
+  const LevelPlaces places(pyramid, feature.level);
+  const double scale = places.scale();
   const auto step = step_of(patch, T_frame_keyframe, camera);
   if (!step) return std::nullopt;
   const Matrix2d to_patch = scale / patch.scale_px * step->inverse();
   const double area = to_patch.determinant();
   Template seen;
   if (!(area > kMinArea && area < kMaxArea) || !sample(patch, to_patch, seen)) return std::nullopt;
-  Weights weights = weights_about_middle(), residuals{};
-  Eigen::Matrix4f H = squares_of(seen, weights);
-  if (!(slopes_of(H) > kMinSlopes)) return std::nullopt;
-  Eigen::LDLT<Eigen::Matrix4f> solver(H);
+  const Eigen::Matrix4f H = squares_of(seen);
+  const float slopes = 0.5F * (H(0, 0) + H(1, 1) - std::hypot(H(0, 0) - H(1, 1), 2.0F * H(0, 1)));
+  if (!(slopes > kMinSlopes)) return std::nullopt;
+  const Eigen::LDLT<Eigen::Matrix4f> solver(H);
+  const ImageView<const std::uint8_t> image = pyramid[static_cast<std::size_t>(feature.level)].image;
+  const Vector2 start = places.on_level(feature.pixel);
   Eigen::Vector4f off(0.0F, 0.0F, 1.0F, 0.0F), gradient;
-  float moved = kMaxMove_px;
+  float residual_variance = 0.0F, moved = kMaxMove_px;
   for (int k = 0; k < kSteps && moved > kEnough_px; ++k) {
-    if (k > 0 && k % 2 == 0) {
-      weights = weights_of(residuals);
-      H = squares_of(seen, weights);
-      if (!(slopes_of(H) > kMinSlopes)) return std::nullopt;
-      solver.compute(H);
-    }
     const Vector2 place = start + off.head<2>().cast<double>();
-    if (!compare(seen, weights, image, place, off[2], off[3], gradient, residuals)) return std::nullopt;
+    if (!compare(seen, image, place, off[2], off[3], gradient, residual_variance)) return std::nullopt;
     const Eigen::Vector4f move = solver.solve(gradient);
     off -= move;
-    moved = k < 3 ? kMaxMove_px : move.head<2>().norm();
+    moved = move.head<2>().norm();
     if (!(off.head<2>().norm() < kMaxMove_px)) return std::nullopt;
   }
-  const float slopes = slopes_of(H);
-  float residual_variance = 0.0F, variance = 0.0F, sum = 0.0F;
-  for (std::size_t k = 0; k < weights.size(); ++k) {
-    residual_variance += weights[k] * residuals[k] * residuals[k];
-    variance += weights[k] * seen.value[k] * seen.value[k];
-    sum += weights[k];
-  }
-  if (moved > 5.0F * kEnough_px || !(off[2] > kMinContrast && off[2] < kMaxContrast) || sum < kMinWeight ||
-      residual_variance > kMaxDissimilarity * off[2] * off[2] * variance) {
+  if (moved > 5.0F * kEnough_px || !(off[2] > kMinContrast && off[2] < kMaxContrast) ||
+      residual_variance > kMaxDissimilarity * off[2] * off[2] * seen.variance) {
     return std::nullopt;
   }
+  const auto spare = static_cast<float>(seen.value.size() - 4);
   // Along the direction of the smaller gradient.
-  const auto fit = static_cast<double>(residual_variance / (sum - 4.0F) / slopes);
+  const double variance = static_cast<double>(residual_variance / spare / slopes);
   return FoundPatch{feature.pixel + scale * off.head<2>().cast<double>(),
-                    std::min(kCornerSigma_px, std::sqrt(kPatchSigma_px * kPatchSigma_px + fit))};
-}
-
-}  // namespace
-
-std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
-                                     const StereoCamera& camera, const Feature& feature,
-                                     const std::vector<PyramidLevel>& pyramid) {
-  const LevelPlaces places(pyramid, feature.level);
-  return find_in(pyramid[static_cast<std::size_t>(feature.level)].image, places.on_level(feature.pixel), places.scale(),
-                 patch, T_frame_keyframe, camera, feature);
-}
-
-std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
-                                     const StereoCamera& camera, const Feature& feature, const LevelPlaces& places,
-                                     const FeatureWindow& window) {
-  return find_in({window.pixels.data(), FeatureWindow::kSide_px, FeatureWindow::kSide_px},
-                 places.on_level(feature.pixel) - window.first_px, places.scale(), patch, T_frame_keyframe, camera,
-                 feature);
+                    std::min(kCornerSigma_px, std::sqrt(kPatchSigma_px * kPatchSigma_px + variance))};
 }
 
 }  // namespace pharos::slam

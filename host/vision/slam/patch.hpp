@@ -32,18 +32,6 @@ std::optional<Patch> cut_patch(KeyframeId keyframe, const Feature& feature, cons
 /// The appearance of a patch depends on the viewing direction: its position error, px of its level, even without noise.
 inline constexpr double kPatchSigma_px = 0.1;
 
-/// Pixels around a feature of a keyframe, in which a patch can be found after its image is gone.
-struct FeatureWindow {
-  static constexpr int kReach_px = 8;  // of the square that is compared, its movement and half a pixel
-  static constexpr int kSide_px = 2 * kReach_px + 1;
-
-  Vector2 first_px = Vector2::Zero();  ///< of the top left pixel, on the feature's level
-  std::array<std::uint8_t, kSide_px * kSide_px> pixels{};
-};
-
-/// Empty where it extends beyond the image.
-std::optional<FeatureWindow> cut_window(const Feature& feature, const std::vector<PyramidLevel>& pyramid);
-
 struct FoundPatch {
   Vector2 pixel = Vector2::Zero();
   double sigma_px = kPatchSigma_px;  ///< px of its level, including the part from the fit's residuals
@@ -56,9 +44,5 @@ struct FoundPatch {
 std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
                                      const StereoCamera& camera, const Feature& feature,
                                      const std::vector<PyramidLevel>& pyramid);
-/// The same in the feature's window; `places` are those of its level.
-std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
-                                     const StereoCamera& camera, const Feature& feature, const LevelPlaces& places,
-                                     const FeatureWindow& window);
 
 }  // namespace pharos::slam

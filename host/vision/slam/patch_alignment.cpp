@@ -3,15 +3,6 @@
 
 namespace pharos::slam {
 
-void move_to_patch(Feature& feature, const FoundPatch& found, const StereoCamera& camera) {
-  const Vector2 move = found.pixel - feature.pixel;
-  feature.pixel = found.pixel;
-  feature.sigma_px = found.sigma_px;
-  if (!feature.stereo()) return;
-  feature.right_u_px += move.x() - feature.disparity_slope.dot(move);
-  feature.depth_m = camera.depth_m(feature.pixel.x() - feature.right_u_px);
-}
-
 void align_with_patches(Frame& frame, const Map& map, const StereoCamera& camera, const CameraFromTarget& pose,
                         const std::vector<PyramidLevel>& pyramid) {
   if (pyramid.empty()) return;
@@ -27,7 +18,12 @@ void align_with_patches(Frame& frame, const Map& map, const StereoCamera& camera
     Feature& feature = frame.features[k];
     const auto found = find_patch(*point->patch, T_frame_keyframe, camera, feature, pyramid);
     if (!found) continue;
-    move_to_patch(feature, *found, camera);
+    const Vector2 move = found->pixel - feature.pixel;
+    feature.pixel = found->pixel;
+    feature.sigma_px = found->sigma_px;
+    if (!feature.stereo()) continue;
+    feature.right_u_px += move.x() - feature.disparity_slope.dot(move);
+    feature.depth_m = camera.depth_m(feature.pixel.x() - feature.right_u_px);
   }
 }
 

@@ -13,9 +13,6 @@ namespace pharos::slam {
 void align_with_patches(Frame& frame, const Map& map, const StereoCamera& camera, const CameraFromTarget& pose,
                         const std::vector<PyramidLevel>& pyramid);
 
-/// Moves a feature to where its point's patch was found; adapts its right column and depth.
-void move_to_patch(Feature& feature, const FoundPatch& found, const StereoCamera& camera);
-
 /// The frame's pose from its points, for a start near it. Its covariance has both factors of the residuals: that of the
 /// aligned patches' variance (kept in the frame) and that of errors which neighbouring points have in common. Features
 /// of points that do not fit lose them.

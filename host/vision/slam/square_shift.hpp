@@ -17,10 +17,9 @@ inline constexpr int kSquareRadius_px = 5;
 using Shift = Eigen::Vector4f;
 
 /// Sub-pixel position of the right square that best equals the left one at (u, v), starting at `column`, by least
-/// squares with the left one's gradients, which are computed once (Lucas 1981, Baker and Matthews 2004). Of a square
-/// that holds two surfaces it is that of the one in the middle: pixels count by their distance from it and by Geman and
-/// McClure's weights. The left square must be inside its image with a margin of one pixel. Empty where the iteration
-/// diverges or the square does not determine a position.
+/// squares with the left one's gradients, which are computed once (Lucas 1981, Baker and Matthews 2004). The left
+/// square must be inside its image with a margin of one pixel. Empty where the iteration diverges or the square does
+/// not determine a position.
 std::optional<Shift> square_shift(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int u, int v,
                                   double column);
 

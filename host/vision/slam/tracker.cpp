@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "host/vision/slam/direct_search.hpp"
 #include "host/vision/slam/local_map.hpp"
 #include "host/vision/slam/patch_alignment.hpp"
 #include "host/vision/slam/place_gate.hpp"
@@ -61,7 +60,7 @@ Tracker::Known Tracker::known_in(const Frame& seen, const CameraFromTarget& seen
   for (std::size_t k = 0; k < seen.features.size(); ++k) {
     const Feature& feature = seen.features[k];
     const MapPoint* point = map_.find_point(seen.points[k]);
-    if (feature.direct || (point == nullptr && !feature.stereo())) continue;
+    if (point == nullptr && !feature.stereo()) continue;
     const Vector3 position =
         point != nullptr ? point->position_m : T_target_seen * camera_.back_project(feature.pixel, feature.depth_m);
     known.features.push_back(feature);
@@ -189,13 +188,6 @@ std::optional<PoseOnly> Tracker::track_local_map(Frame& frame, const PoseOnly& s
   }
   align_with_patches(frame, map_, camera_, start.pose, pyramid_);
   PoseOnly placed = place_frame(frame, map_, camera_, start.pose);
-  if (placed.inliers >= min_inliers) {
-    search_patches(frame, map_, candidates, camera_, placed.pose, pyramid_);
-    placed = place_frame(frame, map_, camera_, placed.pose);
-    for (std::size_t k = 0; k < frame.points.size(); ++k) {
-      if (frame.features[k].direct && frame.points[k] != kNone) --placed.inliers;
-    }
-  }
   for (const PointId id : frame.points) {
     if (id != kNone) ++map_.points.at(id).found;
   }

@@ -21,7 +21,7 @@ bool fits(const Feature& feature, const Vector3& point_m, const StereoCamera& ca
 
 std::vector<bool> pointless(const Keyframe& keyframe) {
   std::vector<bool> free(keyframe.points.size());
-  for (std::size_t k = 0; k < free.size(); ++k) free[k] = keyframe.points[k] == kNone && !keyframe.features[k].direct;
+  for (std::size_t k = 0; k < free.size(); ++k) free[k] = keyframe.points[k] == kNone;
   return free;
 }
 
