@@ -85,14 +85,14 @@ fusion::SourceSettings source_settings(const SourceMounting& mounting, const Fus
   out.time_sigma_s = mounting.time_offset_sigma_s;
   out.noise_time_s = mounting.noise_time_s;
   out.faults_per_hour.fill(choices.faults_per_hour);
-  const auto feature = mounting.target_from_feature();
-  if (!feature) {
+  if (!mounting.has_lasting_feature()) {
     out.relative = true;
     out.bias_frame = fusion::BiasFrame::kFeature;
     out.bias_covariance = diagonal(kRelativeBias_rad, kRelativeBias_m);
     return out;
   }
-  out.T_target_feature = {feature->R, feature->t};
+  const TargetFromFeature feature = *mounting.target_from_feature();
+  out.T_target_feature = {feature.R, feature.t};
   out.bias_covariance = own_bias(mounting, choices);
   if (mounting.slow_error) set_slow_error(mounting, out);
   return out;

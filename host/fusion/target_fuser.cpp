@@ -55,7 +55,7 @@ fusion::Outcome TargetFuser::push(std::size_t source, const SourceRow& row) {
   const fusion::Measurement measurement = measurement_of(row, mounting, index);
   if (!placed_[source] && fusion::check_measurement(measurement, sources_.size()) == fusion::Refusal::kNone) {
     placed_[source] = true;
-    if (mounting.T_target_feature) {
+    if (mounting.has_lasting_feature()) {
       estimator_->set_bias_covariance(index, source_bias(mounting, row.pose, choices_));
     }
   }

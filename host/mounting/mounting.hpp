@@ -97,6 +97,9 @@ struct SourceMounting {
   /// What the calibration could not tell, as text; these directions are at their prior.
   std::vector<std::string> unobservable;
 
+  /// Whether its feature is where it was when the file was written: slam's is the camera's frame at its start, of which
+  /// a file can only tell a former one.
+  bool has_lasting_feature() const { return T_target_feature && kind != SourceKind::kSlam; }
   VehicleFromSensor vehicle_from_sensor() const { return T_vehicle_sensor.as<VehicleFromSensor>(); }
   /// Empty where it is unknown.
   std::optional<TargetFromFeature> target_from_feature() const {

@@ -74,5 +74,20 @@ TEST(FusedApproach, AttitudeErrorsOfATumblingBodyAreStated) {
   EXPECT_LT(std::sqrt(square_rad2 / static_cast<double>(looks)), 0.048 * kRadPerDeg);
 }
 
+// calibrate mounting writes where slam's feature was in its recording. Another start has another one: slam alone tells
+// no pose.
+TEST(FusedApproach, TheFeatureOfAFormerStartOfSlamIsNotBelieved) {
+  const sim::ApproachSimulator simulator(approach_scenario("nominal"), 1);
+  std::vector<host::SourceMounting> sources = simulator.calibrated_mounting().sources;
+  sources[kSlam].T_target_feature = simulator.true_mounting().sources[kSlam].T_target_feature;
+  host::TargetFuser fuser(sources, {});
+  for (const sim::ApproachMeasurement& m : simulator.measure(kSlam)) {
+    if (m.time_s > 10.0) break;
+    if (!m.seen) continue;
+    fuser.push(kSlam, {m.time_s, m.arrival_s, m.pose, m.covariance, m.has_turn, 0.0F, m.second, m.delta_chi2});
+    ASSERT_FALSE(fuser.state(std::llround(m.time_s * 1e9)).valid) << m.time_s;
+  }
+}
+
 }  // namespace
 }  // namespace pharos::tests
