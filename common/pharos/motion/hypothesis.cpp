@@ -33,10 +33,6 @@ constexpr double kSurpriseChi2 = 200.0;
 constexpr double kCoplanarSurpriseChi2 = 40.0;
 // Of a sweep that the next ones must agree with: one in 800 by noise alone, and as little as opens the filter.
 constexpr double kDoubtfulChi2 = 20.0;
-// Probability of the model of highest process noise from which on the body is shaken, and surprises are its own.
-constexpr double kAgitated = 0.3;
-// Sweeps in a row that confirm a state: one of each rotor.
-constexpr int kConfirming = 2;
 // A sweep that rotates the estimate by less is linear enough; how often one that rotates it further is linearised
 // again.
 constexpr double kStraight_rad = 0.02;
@@ -108,7 +104,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
                                  const AssumedNoise& noise, Observer observer, std::optional<Hypothesis>* without) {
   const std::int64_t time = std::max(time_ticks_, last_hit_ticks(bearings, *view.target));
   const double since_s = ticks_to_seconds(time - time_ticks_);
-  const bool quiet = filter_.probability().back() < kAgitated, was_steady = filter_.steady();
+  const bool quiet = filter_.quiet(), was_steady = filter_.steady();
   predict(filter_, since_s);
   if (filter_.linked() && !surveyed_) inflate_relative_covariance(since_s);
   time_ticks_ = time;
@@ -163,7 +159,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     // A body that has just been found is confirmed by sweeps that agree: with new rates a wrong start takes one rotor's
     // sweeps after the other's, and contradicts each in turn.
     fitted_ = agreements_ > 0 || sweeps_ > kSettled ? fitted_ + 1 : 0;
-    confirmed_ = confirmed_ || fitted_ >= kConfirming;
+    confirmed_ = confirmed_ || fitted_ >= kOneOfEachRotor;
     const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
     const CycleInformation::ResidualChi2 residual_chi2 =
         station_state.view.set(axis, fit_.used, station_state.level * own_variance, time, view.calibration == nullptr);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -92,10 +93,8 @@ class Hypothesis {
   double dispute() const { return dispute_; }
   /// Sweeps since it began, or since one spoke strongly against the target; negative where its state is in doubt.
   int undisputed() const { return undisputed_; }
-  /// It takes over from one against which sweeps spoke not longer ago.
-  void inherit_disputes(const Hypothesis& other) {
-    undisputed_ = undisputed_ < other.undisputed_ ? undisputed_ : other.undisputed_;
-  }
+  /// Takes the smaller count of undisputed sweeps, its own or that of the hypothesis it replaces.
+  void inherit_disputes(const Hypothesis& other) { undisputed_ = std::min(undisputed_, other.undisputed_); }
   /// It takes over from one that withheld what it took: its state is in doubt.
   void confirm_anew();
   /// The last sweep was of coplanar sensors, and to which side they are tilted is not known yet: the attitude is no
@@ -138,6 +137,8 @@ class Hypothesis {
 
   // A body that is pushed after so many sweeps is not one that has just been found.
   static constexpr int kSettled = 16;
+  // Sweeps in a row that confirm a state, or by their relief tell the side of the tilt: one of each rotor.
+  static constexpr int kOneOfEachRotor = 2;
   // Range of the estimated own variance over the assumed one.
   static constexpr double kMinLevel = 0.8, kMaxLevel = 1e4;
   // What a sweep says beyond how it fits.

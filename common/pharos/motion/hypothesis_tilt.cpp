@@ -15,8 +15,6 @@ constexpr double kMaxSideChi2 = 40.0;
 // only the tilt itself speaks for the side (0.03 rad about each of two axes), later the motion before does too; and the
 // hypothesis of the other side, which is not followed before a station of unknown calibration.
 constexpr double kMaxTiltAtStart_rad = 0.042, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
-// Sweeps of relief in a row that tell the side: one of each rotor.
-constexpr int kTellingSide = 2;
 
 }  // namespace
 
@@ -27,7 +25,7 @@ void Hypothesis::judge_tilt(bool both_sides_followed) {
   tilt_unknown_ = false;
   if (fit_.used.empty() || !filter_.steady()) return;
   if (!coplanar_) {
-    if (++sweeps_of_relief_ >= kTellingSide) side_doubtful_ = false;
+    if (++sweeps_of_relief_ >= kOneOfEachRotor) side_doubtful_ = false;
     tilt_unknown_ = side_doubtful_;
     return;
   }

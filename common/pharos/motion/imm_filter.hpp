@@ -57,6 +57,8 @@ class ImmFilter {
   /// Hardly any of it is of the two models of high process noise: no hand shakes the body, which has another attitude
   /// error in every sweep then.
   bool steady() const { return probability_[kMoving] + probability_[kMoving - 1] < kShaken; }
+  /// Hardly any of it is of the model of highest process noise: the body is not shaken, and surprises are not its own.
+  bool quiet() const { return probability_[kMoving] < kShaken; }
 
  private:
   static constexpr double kShaken = 0.3;

@@ -52,7 +52,7 @@ struct InnovationStatistics {
 ///
 /// One result a sweep that hit the target, in the frame of that sweep's station; its time is that of the last hit used.
 /// Results have the form of EpochTracker's; `prior` then means that this station's recent sweeps do not suffice to
-/// solve the pose alone, `fused` that the pose uses both stations. State: some 100 KiB. Cost: README.
+/// solve the pose alone, `fused` that the pose uses both stations. State and cost: README.md.
 class MotionTracker {
  public:
   MotionTracker(const Target& target, const MotionOptions& options);

@@ -34,7 +34,7 @@ NetworkResult NetworkTracker::refused(const PlaneSweep& sweep, pose::Refusal why
 NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad) const {
   NetworkResult out = refused(sweep, pose::Refusal::kUnconfirmed);
   // Stations that contradict each other tell nothing at once.
-  if (!fix_ || watch_.contradictory() || disputed()) return out;
+  if (!fix_ || watch_.has_contradictions() || disputed()) return out;
   out.time_s = time_s_;  // of the latest sweep: this one may have begun before another one that is over
   const NetworkState& state = filter_.mean();
   const Vector3& position_m = fix_->position_m;

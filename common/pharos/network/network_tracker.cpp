@@ -128,7 +128,7 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
   const bool settled = !strayed(taken) && confirmed(now_s);
   // A small target is followed without two stations only as long as all light fits.
   if (!fix_ && (!taken || attitude_doubted())) fixed_.forget();
-  if (watch_.contradicted()) {
+  if (watch_.too_contradictory()) {
     ++counters_.sweeps_refused;
     return refused(sweep, pose::Refusal::kPoorFit);
   }

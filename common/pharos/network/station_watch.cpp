@@ -38,8 +38,8 @@ void StationWatch::watch(std::size_t station, bool fits, double time_s, NetworkC
 void StationWatch::take(const Consensus& consensus, NetworkCounters& counters) {
   contradictions_ =
       std::clamp(contradictions_ + (consensus.contradiction ? kContradictionWeight : -1), 0, kContradictions);
-  if (contradictions_ == kContradictions) contradicted_ = true;
-  if (contradictions_ == 0) contradicted_ = false;
+  if (contradictions_ == kContradictions) too_contradictory_ = true;
+  if (contradictions_ == 0) too_contradictory_ = false;
   for (std::size_t s = 0; s < records_.size(); ++s) {
     Record& station = records_[s];
     station.dissents = consensus.dissenting == s ? station.dissents + 1 : std::max(0, station.dissents - 1);
@@ -48,7 +48,7 @@ void StationWatch::take(const Consensus& consensus, NetworkCounters& counters) {
     station.disputed = false;
     station.dissents = station.accepted = 0;
     contradictions_ = 0;
-    contradicted_ = false;
+    too_contradictory_ = false;
     ++counters.exclusions;
   }
 }

@@ -31,8 +31,8 @@ class StationWatch {
   /// One contradicts the only other one that is heard, until its sweeps fit again.
   bool disputed() const;
   /// No position fits all stations: now and then, or so often that nothing is answered.
-  bool contradictory() const { return contradictions_ > 0; }
-  bool contradicted() const { return contradicted_; }
+  bool has_contradictions() const { return contradictions_ > 0; }
+  bool too_contradictory() const { return too_contradictory_; }
   /// Stations in use whose light fitted of late.
   int fresh(double time_s) const;
 
@@ -47,8 +47,8 @@ class StationWatch {
 
   std::array<Record, kMaxNetworkStations> records_;
   StationMask excluded_{};
-  int contradictions_ = 0;     // checks more than not in which no position fits all stations
-  bool contradicted_ = false;  // from many contradictions until they are gone
+  int contradictions_ = 0;          // checks more than not in which no position fits all stations
+  bool too_contradictory_ = false;  // from many contradictions until they are gone
 };
 
 }  // namespace pharos::network

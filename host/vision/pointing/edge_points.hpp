@@ -38,7 +38,8 @@ struct MeasuredEdge {
 ///
 /// `guess` has the target on its positive side; within `reach_px` across it pixels belong to this edge alone. Points
 /// whose dark side is not the sky (another part is there) are left out. The edge is followed beyond the guess' ends to
-/// its own; corners are left out. No points where there is no edge.
+/// its own; corners are left out. An edge of which too few rows show the rise is measured again by short profiles. No
+/// points where that fails, and where there is no edge.
 MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask& target, const Segment& guess,
                           double reach_px);
 

@@ -72,10 +72,10 @@ Vector2 EdgeScan::place(int index, double across) const {
 }
 
 std::vector<EdgeSample> samples_between(const EdgeScan& scan, const TargetMask& target, int from, int to,
-                                        const ScanSettings& settings, int every) {
+                                        const ScanSettings& settings) {
   std::vector<EdgeSample> samples;
   const int step = scan.direction();
-  for (int index = from; step * (to - index) >= 0; index += every * step) {
+  for (int index = from; step * (to - index) >= 0; index += step) {
     if (const auto one = sample(scan, target, index, settings)) samples.push_back(*one);
   }
   return samples;

@@ -51,9 +51,9 @@ struct ScanSettings {
   double max_off_px = 2.5;  ///< from the line: farther ones are of another edge
 };
 
-/// The rises of every `every`th row or column from one to another; those that are none of this edge are left out.
+/// The rises of every row or column from one to another; those that are none of this edge are left out.
 std::vector<EdgeSample> samples_between(const EdgeScan& scan, const TargetMask& target, int from, int to,
-                                        const ScanSettings& settings, int every = 1);
+                                        const ScanSettings& settings);
 
 /// From `index` on in steps of `step` until the edge ends; the index of the last good one.
 int followed(const EdgeScan& scan, const TargetMask& target, int index, int step, const ScanSettings& settings);
