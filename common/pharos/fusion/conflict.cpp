@@ -67,12 +67,13 @@ Use FusionCore::track_in_conflict(FusionState& state, const Measurement& raw) co
     side.align(own, settings_);
     return Use::kConflict;
   }
-  const Innovation in = side.innovation(own, settings_, side.second_fits_better(own, settings_));
+  const bool second = side.second_fits_better(own, settings_);
+  const Innovation in = side.innovation(own, settings_, second);
   monitor.nis = in.nis;
   monitor.rank = in.rank;
   if (in.ok && in.nis < gate(in.rank)) {
-    side.correct(side.innovation(own.as_one_of_many(), settings_, side.second_fits_better(own, settings_)), m.source,
-                 settings_);
+    const Innovation weighed = own.correlation > 1.0 ? side.innovation(own.as_one_of_many(), settings_, second) : in;
+    if (weighed.ok) side.correct(weighed, m.source, settings_);
     monitor.gated_run = 0;
   } else {
     if (monitor.gated_run == 0) monitor.gated_since_ns = m.time_ns;

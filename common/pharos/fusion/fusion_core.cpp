@@ -155,7 +155,7 @@ Use FusionCore::use_or_gate(FusionState& state, const Measurement& raw) const {
   if (align) {
     state.main.align(m, settings_);
     for (std::size_t k = 0; k < settings_.sources.size(); ++k) {
-      if (k != m.source) correct_without(state, k, m, false);
+      if (k != m.source) correct_without(state, k, m.as_one_of_many(), false);
     }
     monitor.note_used(m.time_ns);
     return Use::kUsed;
@@ -239,11 +239,11 @@ void FusionCore::correct_without(FusionState& state, std::size_t k, const Target
   // One that began with a part of a pose begins anew with the first whole one.
   const bool whole = !source.relative && m.directions.rank == 6;
   if (!filter.valid() || (whole && !filter.complete())) {
-    if (!source.relative) filter.start(m.chosen(second), settings_, &state.main.mean().pose);
+    if (!source.relative) filter.start(m.alone().chosen(second), settings_, &state.main.mean().pose);
     return;
   }
   if (source.relative && !filter.aligned(m.source)) {
-    filter.align(m, settings_);
+    filter.align(m.alone(), settings_);
     return;
   }
   const Innovation in = filter.innovation(m, settings_, second);

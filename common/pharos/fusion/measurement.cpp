@@ -90,6 +90,12 @@ TargetMeasurement TargetMeasurement::as_one_of_many() const {
   return out;
 }
 
+TargetMeasurement TargetMeasurement::alone() const {
+  TargetMeasurement out = *this;
+  out.covariance /= correlation;
+  return out;
+}
+
 Refusal check_measurement(const Measurement& m, std::size_t sources) {
   if (m.source >= sources) return Refusal::kUnknownSource;
   if (!usable(m.pose) || !m.covariance.allFinite()) return Refusal::kNotFinite;

@@ -59,6 +59,8 @@ struct TargetMeasurement {
   /// With the weight that it has among its neighbours, whose noise is alike: gates judge it by what it states, a filter
   /// that takes noise as independent averages many of these rightly.
   TargetMeasurement as_one_of_many() const;
+  /// The inverse: with the weight that it has alone, as the first of a filter.
+  TargetMeasurement alone() const;
 };
 
 /// Why a measurement never reached the filter.

@@ -8,7 +8,8 @@
 namespace pharos::fusion {
 namespace {
 
-constexpr double kLongestTime_s = 1e6;  // of a measurement's time, and of noise
+constexpr double kMaxTimeSigma_s = 1e6;
+constexpr double kMaxNoiseTime_s = 10.0;  // longer is a slow error; its weight would silence the source
 
 bool is_rotation_matrix(const Matrix3& R) {
   return R.allFinite() && (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
@@ -42,9 +43,8 @@ SettingsError check_source(const SourceSettings& source) {
   for (const double ratio : {source.own_rotation_ratio, source.own_position_ratio}) {
     if (!(ratio >= 0.0) || !std::isfinite(ratio)) return SettingsError::kBiasModel;
   }
-  for (const double time : {source.time_sigma_s, source.noise_time_s}) {
-    if (!(time >= 0.0 && time <= kLongestTime_s)) return SettingsError::kBiasModel;
-  }
+  if (!(source.time_sigma_s >= 0.0 && source.time_sigma_s <= kMaxTimeSigma_s)) return SettingsError::kBiasModel;
+  if (!(source.noise_time_s >= 0.0 && source.noise_time_s <= kMaxNoiseTime_s)) return SettingsError::kBiasModel;
   if (!positive(source.silent_after_s)) return SettingsError::kBiasModel;
   for (const double rate : source.faults_per_hour) {
     if (!(rate >= 0.0) || !std::isfinite(rate)) return SettingsError::kProbability;

@@ -33,6 +33,9 @@ constexpr int kRounds = 4;
 // Nodes of the slow error a time constant, with straight lines between them: what changes faster than a target sways is
 // lost, and its part that looks like a turned mounting would be in no sigma.
 constexpr double kSlowSteps = 8.0;
+// Nodes of a source: the evidence of four sources' is a dense matrix of 0.2 GB. Of more than 7 min they are farther
+// apart.
+constexpr double kMaxSlowNodes = 120.0;
 constexpr std::size_t kMaxKnots = 2000;
 // Of slam without a prior: a baseline of 0.3 m known to 0.6 mm. Without it slam would bend the motion of all sources.
 constexpr double kSlamScaleSigma = 2e-3;
@@ -170,8 +173,8 @@ void start_motion(const std::vector<TimedTarget>& path, double knot_s, MountingU
 }
 
 void start_slow(const MountingCalibrationInput& input, MountingUnknowns& unknowns) {
-  unknowns.slow_step_s = input.slow_time_constant_s / kSlowSteps;
   const double span_s = static_cast<double>(unknowns.segments()) * unknowns.knot_s;
+  unknowns.slow_step_s = std::max(input.slow_time_constant_s / kSlowSteps, span_s / kMaxSlowNodes);
   const auto nodes = static_cast<std::size_t>(span_s / unknowns.slow_step_s) + 2;
   for (UnknownSource& source : unknowns.sources) source.slow.assign(nodes, {});
 }
@@ -239,6 +242,16 @@ void assess_source(const MountingRecording& recording,
   fit.chi2_per_freedom = sum / n;
 }
 
+// How many poses are worth one, where their noise is alike for `time_s`: each weighs by its own step from the one
+// before.
+double poses_of_one(const std::vector<MountingResidual>& poses, double time_s) {
+  double weight = 1.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    weight += 1.0 / noise_correlation(time_s, poses[i].time_s - poses[i - 1].time_s);
+  }
+  return static_cast<double>(poses.size()) / weight;
+}
+
 // Residuals of all rows; marks outliers, and enlarges covariances that are too small for the residuals, or for as many
 // rows as there are.
 void assess(const MountingCalibrationInput& input, const MountingUnknowns& unknowns,
@@ -252,10 +265,7 @@ void assess(const MountingCalibrationInput& input, const MountingUnknowns& unkno
   for (std::size_t s = 0; s < fits.size(); ++s) {
     assess_source(input.recordings[s], residuals[s], inliers[s], fits[s]);
     enlarged[s] = std::max(fits[s].chi2_per_freedom, 1.0);
-    // Poses whose noise is alike are fewer than they seem.
-    const std::vector<MountingResidual>& all = fits[s].residuals;
-    const double step_s = (all.back().time_s - all.front().time_s) / static_cast<double>(all.size() - 1);
-    enlarged[s] *= noise_correlation(noise_time_s(fits[s], unknowns.knot_s), step_s);
+    enlarged[s] *= poses_of_one(fits[s].residuals, noise_time_s(fits[s], unknowns.knot_s));
   }
 }
 
@@ -295,16 +305,14 @@ host::SourceMounting mounting_of(const MountingCalibrationInput& input, std::siz
 
 // Half way, as ratios, from what was assumed to what the recording tells: a minute holds two time constants, and an
 // estimate that happens to be small must not make a mounting look sure.
-MountingCalibrationInput with_likely_slow_errors(const MountingCalibrationInput& input,
-                                                 const std::vector<UsedRow>& rows, const std::vector<double>& enlarged,
-                                                 const MountingUnknowns& unknowns) {
-  MountingCalibrationInput out = with_estimated_slow_errors(input, rows, enlarged, unknowns);
-  for (std::size_t s = 0; s < out.recordings.size(); ++s) {
-    MountingRecording& recording = out.recordings[s];
-    recording.slow_rotation_rad = std::sqrt(recording.slow_rotation_rad * input.recordings[s].slow_rotation_rad);
-    recording.slow_position_m = std::sqrt(recording.slow_position_m * input.recordings[s].slow_position_m);
+MountingCalibrationInput half_way(const MountingCalibrationInput& assumed, MountingCalibrationInput estimated) {
+  for (std::size_t s = 0; s < estimated.recordings.size(); ++s) {
+    const MountingRecording& from = assumed.recordings[s];
+    MountingRecording& to = estimated.recordings[s];
+    to.slow_rotation_rad = std::sqrt(to.slow_rotation_rad * from.slow_rotation_rad);
+    to.slow_position_m = std::sqrt(to.slow_position_m * from.slow_position_m);
   }
-  return out;
+  return estimated;
 }
 
 }  // namespace
@@ -336,16 +344,17 @@ MountingCalibration calibrate_mounting(const MountingCalibrationInput& input) {
     }
   };
   settle(input, kRounds);
-  const MountingCalibrationInput likely =
-      with_likely_slow_errors(input, select_rows(input, unknowns, inliers), enlarged, unknowns);
+  const MountingCalibrationInput estimated =
+      with_estimated_slow_errors(input, select_rows(input, unknowns, inliers), enlarged, unknowns);
+  const MountingCalibrationInput likely = half_way(input, estimated);
   settle(likely, 1);
   const std::vector<UsedRow> rows = select_rows(input, unknowns, inliers);
   const auto covariance = covariances(likely, rows, enlarged, unknowns);
-  const std::vector<ErrorTimes> times = estimate_error_times(input, rows, enlarged, unknowns, out.fits);
+  const std::vector<SourceErrors> errors = source_errors(estimated, rows, unknowns, out.fits);
   for (std::size_t s = 0; s < input.recordings.size(); ++s) {
     out.mounting.sources.push_back(mounting_of(input, s, unknowns.sources[s], covariance[s]));
-    out.mounting.sources.back().noise_time_s = times[s].noise_time_s;
-    out.mounting.sources.back().slow_error = times[s].slow;
+    out.mounting.sources.back().noise_time_s = errors[s].noise_time_s;
+    out.mounting.sources.back().slow_error = errors[s].slow;
   }
   return out;
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLagKnots = 1.0 / 12.0;  // the spline takes up 4 % of a difference over it, 10 % of one over twice it
 constexpr double kLongestKnots = 2.0;
-constexpr double kMinAlike = 0.2;  // of the variance: what scatter and a wrong statement can feign
+constexpr double kMinAlike = 0.2;  // of the variance: what scatter and a wrong statement can look like
 constexpr std::size_t kMinPairs = 200;
 
 // Mean squared difference of residuals `lag_s` apart, within a quarter, over what both state: one for independent
@@ -41,13 +41,15 @@ Difference difference_over(const std::vector<MountingResidual>& residuals, doubl
   return out;
 }
 
-// From what is alike at one lag, v q, and at twice the lag, v q^2, with q = exp(-lag / T): v T. Infinite: for good.
-double time_of(double difference, double difference_of_two, double lag_s) {
+// v T from what is alike at two lags, v exp(-lag / T). Infinite: for good.
+double time_of(double difference, double lag_s, double difference_of_two, double lag_of_two_s) {
   const double alike = 1.0 - difference;
   if (alike < kMinAlike) return 0.0;
-  const double q = (1.0 - difference_of_two) / alike;
-  if (!(q > 0.0)) return 0.0;
-  return q < 1.0 ? std::min(1.0, alike / q) * lag_s / -std::log(q) : HUGE_VAL;
+  const double ratio = (1.0 - difference_of_two) / alike;
+  if (!(ratio > 0.0)) return 0.0;
+  if (!(ratio < 1.0)) return HUGE_VAL;
+  const double time_s = (lag_of_two_s - lag_s) / -std::log(ratio);
+  return std::min(1.0, alike * std::exp(lag_s / time_s)) * time_s;
 }
 
 }  // namespace
@@ -56,9 +58,8 @@ double noise_time_s(const MountingFit& fit, double knot_s) {
   const Difference one = difference_over(fit.residuals, kLagKnots * knot_s);
   const Difference two = difference_over(fit.residuals, 2.0 * kLagKnots * knot_s);
   if (one.pairs < kMinPairs || two.pairs < kMinPairs) return 0.0;
-  const double lag_s = two.lag_s - one.lag_s;
-  const double time_s =
-      std::min(time_of(one.rotation, two.rotation, lag_s), time_of(one.position, two.position, lag_s));
+  const double time_s = std::min(time_of(one.rotation, one.lag_s, two.rotation, two.lag_s),
+                                 time_of(one.position, one.lag_s, two.position, two.lag_s));
   return time_s < kLongestKnots * knot_s ? time_s : 0.0;
 }
 

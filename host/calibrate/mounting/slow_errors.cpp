@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/calibrate/mounting/noise_time.hpp"
+#include "pharos/base/noise_correlation.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -78,25 +79,25 @@ MountingCalibrationInput with_estimated_slow_errors(const MountingCalibrationInp
   return assumed;
 }
 
-std::vector<ErrorTimes> estimate_error_times(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
-                                             const std::vector<double>& enlarged, const MountingUnknowns& unknowns,
-                                             const std::vector<MountingFit>& fits) {
-  const MountingCalibrationInput assumed = with_estimated_slow_errors(input, rows, enlarged, unknowns);
-  const std::vector<StatedNoise> noise = stated_noise(input, rows);
+std::vector<SourceErrors> source_errors(const MountingCalibrationInput& estimated, const std::vector<UsedRow>& rows,
+                                        const MountingUnknowns& unknowns, const std::vector<MountingFit>& fits) {
+  const std::vector<StatedNoise> noise = stated_noise(estimated, rows);
   const double span_s = static_cast<double>(unknowns.segments()) * unknowns.knot_s;
-  std::vector<ErrorTimes> out(noise.size());
+  std::vector<SourceErrors> out(noise.size());
   for (std::size_t s = 0; s < out.size(); ++s) {
-    const MountingRecording& recording = assumed.recordings[s];
+    const MountingRecording& recording = estimated.recordings[s];
     if (recording.kind == host::SourceKind::kSlam || !(noise[s].rotation_rad > 0.0 && noise[s].position_m > 0.0)) {
       continue;
     }
-    const double a_time_constant = static_cast<double>(noise[s].rows) * input.slow_time_constant_s / span_s;
-    const double least = 1.0 / std::sqrt(std::max(a_time_constant, 1.0));
     const double noise_time = noise_time_s(fits[s], unknowns.knot_s);
+    const auto rows_of_source = static_cast<double>(noise[s].rows);
+    const double independent = rows_of_source / noise_correlation(noise_time, span_s / rows_of_source);
+    const double min_ratio = 1.0 / std::sqrt(std::max(independent * estimated.slow_time_constant_s / span_s, 1.0));
     out[s].noise_time_s = noise_time;
-    host::SlowError slow{std::max(recording.slow_rotation_rad / noise[s].rotation_rad, least),
-                         std::max(recording.slow_position_m / noise[s].position_m, least), input.slow_time_constant_s};
-    if (s == input.given) {
+    host::SlowError slow{std::max(recording.slow_rotation_rad / noise[s].rotation_rad, min_ratio),
+                         std::max(recording.slow_position_m / noise[s].position_m, min_ratio),
+                         estimated.slow_time_constant_s};
+    if (s == estimated.given) {
       const auto unseen = [&](double residual_rms, double stated_sigma) {
         return noise_time > 0.0 ? hidden_fraction(span_s, noise_time)
                                 : unseen_fraction(residual_rms, stated_sigma, noise[s].rows, unknowns.motion.size());

@@ -148,7 +148,7 @@ TEST(Protection, TakesMoreSigmasForASmallerRiskAndForMoreFaults) {
 
 // Of two solutions that are alike in a direction neither is the surer one but by rounding: the 2 % by which P may
 // exceed P_i there is no variance of the difference.
-TEST(SolutionSeparation, AlikeSolutionsAreNotTornApartByRounding) {
+TEST(SolutionSeparation, AlikeSolutionsAreNotSeparatedByRounding) {
   const Matrix3 turn = rotation_exp({0.4, -0.3, 0.8});
   const auto turned = [&](const Vector3& variances) {
     return Matrix3(turn * variances.asDiagonal() * turn.transpose());

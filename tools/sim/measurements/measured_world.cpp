@@ -80,7 +80,8 @@ class Chain {
   }
 
   void move_noise(double step_s) {
-    const double kept = source_.noise_time_s > 0.0 ? std::exp(-step_s / source_.noise_time_s) : 0.0;
+    const bool alike = source_.noise_time_s > 0.0 && !noise_.isZero(0.0);  // the first one is independent
+    const double kept = alike ? std::exp(-step_s / source_.noise_time_s) : 0.0;
     Vector6 fresh;
     fresh << source_.noise_rad * normal3(random_), source_.noise_m * normal3(random_);
     noise_ = kept * noise_ + std::sqrt(1.0 - kept * kept) * fresh;
