@@ -41,8 +41,8 @@ inline constexpr ChoiceRange kFaultsRange{0.0, 1e3};
 fusion::Settings fusion_settings(const FusionChoices& choices);
 
 /// One source of the mounting file. Its bias is the source's own: what the file states as slow_error, otherwise the
-/// choices. A feature that is unknown, or of a former start (slam), makes it
-/// a relative source.
+/// choices. A feature that is unknown, or of a former start (slam), makes it a relative
+/// source.
 fusion::SourceSettings source_settings(const SourceMounting& mounting, const FusionChoices& choices);
 
 /// The bias of a source whose feature is known: its own, and what the mounting's covariance leaves at `first`, a pose

@@ -27,6 +27,7 @@ constexpr const char* kMountingExample =
     "pharos track, tof, circles or slam --format csv; NAME=FILE names a source, otherwise the file's name does, and\n"
     "NAME:KIND=FILE says its kind where the name is none (lighthouse, tof, ring2, slam). tof and ring2 need a column\n"
     "time_s, or --rate. Errors that last longer than a recording (--slow-deg, --slow-mm) are in the sigmas.\n"
+    "Slam's T_target_feature holds for its recording alone: the next start has another one, and fuse does not use it.\n"
     "On standard output: source,parameter,value,sigma; residuals and what is not observable on standard error.";
 
 constexpr std::size_t kMaxRows = 200'000;  // of one table: an hour and a half at 30 Hz

@@ -312,7 +312,7 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
   const std::size_t first = bias_row(m.source);
   const Matrix6 cross = block_of(covariance_, first, 0);
   P << block_of(covariance_, 0, 0), cross.transpose(), cross, block_of(covariance_, first, first);
-  Matrix6 noise = m.covariance;
+  Matrix6 noise = m.covariance * m.noise_factor();
   const double own_time_sigma_s = static_cast<double>(m.time_sigma_s);
   const double time_variance = source.time_sigma_s * source.time_sigma_s + own_time_sigma_s * own_time_sigma_s;
   if (time_variance > 0.0) {

@@ -86,13 +86,13 @@ TargetMeasurement TargetMeasurement::chosen(bool second_pose) const {
 
 TargetMeasurement TargetMeasurement::as_one_of_many() const {
   TargetMeasurement out = *this;
-  out.covariance *= correlation;
+  out.one_of_many = true;
   return out;
 }
 
 TargetMeasurement TargetMeasurement::alone() const {
   TargetMeasurement out = *this;
-  out.covariance /= correlation;
+  out.one_of_many = false;
   return out;
 }
 

@@ -53,14 +53,17 @@ struct TargetMeasurement {
   std::optional<TargetPose> second;
   /// Variance of the mean of many such measurements over that of independent ones; >= 1.
   double correlation = 1.0;
+  /// Whether a filter weighs it as one of many, whose noise is alike, or alone by what it states.
+  bool one_of_many = false;
 
   /// With the second pose alone, or with the first.
   TargetMeasurement chosen(bool second_pose) const;
-  /// With the weight that it has among its neighbours, whose noise is alike: gates judge it by what it states, a filter
-  /// that takes noise as independent averages many of these rightly.
+  /// As a filter has to take it that averages many: gates judge it by what it states.
   TargetMeasurement as_one_of_many() const;
-  /// The inverse: with the weight that it has alone, as the first of a filter.
+  /// As the first of a filter.
   TargetMeasurement alone() const;
+  /// Of the noise that a filter takes, over `covariance`.
+  double noise_factor() const { return one_of_many ? correlation : 1.0; }
 };
 
 /// Why a measurement never reached the filter.

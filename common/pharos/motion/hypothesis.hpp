@@ -113,7 +113,7 @@ class Hypothesis {
   /// The same with the sensors tilted to the other side, as after that sweep.
   Hypothesis mirrored() const;
   /// A sweep of each rotor was of sensors with relief.
-  bool sees_relief() const { return sweeps_with_relief_ >= 2; }
+  bool sees_relief() const { return sweeps_with_relief_ >= kOneOfEachRotor; }
   /// -2 ln of the likelihood of the last sweep, as far as it tells the side of the tilt.
   double side_cost(const AssumedNoise& noise) const;
   /// Consecutive sweeps most of whose hits were rejected.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pharos/geometry/small_difference.hpp"
 #include "pharos/motion/imm_onset.hpp"
 #include "pharos/motion/state_mixture.hpp"
 

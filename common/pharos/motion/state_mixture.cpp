@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/motion/state_mixture.hpp"
 
+#include "pharos/geometry/small_difference.hpp"
+
 namespace pharos::motion {
 namespace {
 

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/network/network_state.hpp"
 
+#include "pharos/geometry/small_difference.hpp"
+
 namespace pharos::network {
 namespace {
 
 // Random walk of a body at rest: a table that yields, temperature.
 constexpr double kCreep = 1e-10;  // rad^2/s, m^2/s
-
-template <class Parent, class Child>
-Vector6 small_difference(const Pose<Parent, Child>& to, const Pose<Parent, Child>& from) {
-  const Matrix3 turn = to.R.lazyProduct(from.R.transpose());
-  Vector6 delta;
-  delta << 0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)), 0.5 * (turn(1, 0) - turn(0, 1)),
-      to.t - from.t;
-  return delta;
-}
 
 }  // namespace
 
