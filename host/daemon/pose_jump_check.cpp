@@ -16,6 +16,10 @@ bool PoseJumpCheck::fits(const Sample& before, const Sample& after) {
 
 bool PoseJumpCheck::passes(const Sample& sample) {
   if (last_ && !fits(*last_, sample)) {
+    if (sample.time_ns < contested_until_ns_) {
+      candidate_.reset();
+      return false;
+    }
     if (candidate_ && fits(*candidate_, sample)) {
       ++confirmations_;
     } else {

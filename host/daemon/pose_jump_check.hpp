@@ -14,7 +14,9 @@ namespace pharos::host {
 /// Two poses are consistent if no point of the docking ring moved faster than kMaxSpeed_m_s between them, apart from
 /// kSigmas of both. An inconsistent pose is refused. A target that has really moved (while hidden or lost) is accepted
 /// after kConfirmations poses during kConfirmation_ns that are consistent with each other, with none between them that
-/// is consistent with the last accepted one. Alternating frames of two senders therefore never confirm a jump.
+/// is consistent with the last accepted one. Alternating frames of two senders therefore never confirm a jump. Nor does
+/// anything for kContested_ns after frames of two senders came: the camera is then opened anew, its own frames may be
+/// those that are lost, and five poses of half a second are the other sender's.
 class PoseJumpCheck {
  public:
   /// A faster ring cannot be measured: the exposures of a depth frame take some 30 ms, in which its edges would move by
@@ -28,11 +30,19 @@ class PoseJumpCheck {
   static constexpr double kSigmas = 5.0;
   static constexpr int kConfirmations = 5;
   static constexpr std::int64_t kConfirmation_ns = 500'000'000;
+  /// Ten times the confirmation, and longer than it takes to open a camera.
+  static constexpr std::int64_t kContested_ns = 5'000'000'000;
 
   /// True if the pose may be reported. Poses must be in the order of their times; ambiguous poses must not be passed.
   template <class Parent, class Child>
   bool passes(const PoseEstimate<Parent, Child>& estimate, std::int64_t time_ns) {
     return passes(Sample{estimate.pose.R.col(2), estimate.pose.t, variance_of(estimate), time_ns});
+  }
+
+  /// How often frames of two senders have come until now.
+  void on_contests(std::int64_t count, std::int64_t time_ns) {
+    if (count > contests_) contested_until_ns_ = time_ns + kContested_ns;
+    contests_ = count;
   }
 
  private:
@@ -55,6 +65,8 @@ class PoseJumpCheck {
   std::optional<Sample> last_;
   std::optional<Sample> candidate_;
   std::int64_t candidate_since_ns_ = 0;
+  std::int64_t contests_ = 0;
+  std::int64_t contested_until_ns_ = 0;
   int confirmations_ = 0;
 };
 

@@ -7,6 +7,7 @@ namespace pharos::host {
 
 bool TofPipeline::state_changed(const FrameSourceStatus& camera, std::int64_t monotonic_ns) {
   delivery_.on_frames(delivered(camera.counters), monotonic_ns);
+  jump_check_.on_contests(camera.counters.camera_contested, monotonic_ns);
   return changes_.update(rate_, delivery_.assess(monotonic_ns), last_refusal_, log_, monotonic_ns);
 }
 

@@ -117,6 +117,7 @@ PairSourceStatus CameraPairs::status() const {
     // A frame lost on one side leaves one without a partner on the other: the worse side has lost the pairs.
     status.pairs.lost = std::max(status.pairs.lost, delivered(cameras[side].counters).lost + matcher_.unpaired(side));
     status.session += cameras[side].session;
+    status.contests += cameras[side].counters.camera_contested;
     status.clock_sigma_ns = std::max(status.clock_sigma_ns, static_cast<double>(clocks_[side].sigma_ns()));
   }
   if (status.error.empty() && matcher_.unpaired(0) + matcher_.unpaired(1) - unpaired_at_last_pair_ >= kManyAlone) {

@@ -15,6 +15,7 @@ namespace pharos::host {
 struct PairSourceStatus : SourceStatus {
   NamedCounts counters;
   DeliveredFrames pairs;
+  std::int64_t contests = 0;  // times frames of two senders came to one of the cameras
   double clock_sigma_ns = 0.0;
   double clock_drift_ppm = 0.0;
 };

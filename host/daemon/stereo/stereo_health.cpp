@@ -7,6 +7,7 @@ namespace pharos::host {
 
 bool StereoPipeline::state_changed(const PairSourceStatus& pairs, std::int64_t monotonic_ns) {
   delivery_.on_frames(pairs.pairs, monotonic_ns);
+  jump_check_.on_contests(pairs.contests, monotonic_ns);
   return changes_.update(rate_, delivery_.assess(monotonic_ns), last_refusal_, log_, monotonic_ns);
 }
 

@@ -77,5 +77,18 @@ TEST_F(PoseJumpCheckTest, AfterAPauseATargetThatIsElsewhereIsConfirmedFirst) {
   EXPECT_TRUE(next(at(0.05)));
 }
 
+// While two senders compete for a camera its own frames may be those that are lost.
+TEST_F(PoseJumpCheckTest, NothingConfirmsAJumpWhileTwoSendersCompete) {
+  settle();
+  const std::int64_t until_ns = time_ns + PoseJumpCheck::kContested_ns;
+  check.on_contests(1, time_ns);
+  check.on_contests(1, time_ns + 1'000'000'000);  // the same one, told again
+  while (time_ns + kPosePeriod_ns < until_ns) EXPECT_FALSE(next(at(0.17)));
+  EXPECT_TRUE(next(at(0.0))) << "the camera's own are still taken";
+  int refused = 0;
+  while (!next(at(0.17))) ++refused;
+  EXPECT_NEAR(refused, 15, 2);
+}
+
 }  // namespace
 }  // namespace pharos::host
