@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the checks: a violation is planted in a temporary tree, and the check must report it."""
 
+import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -213,6 +215,49 @@ class House(ScratchTree):
     def test_passes_a_good_file(self):
         self.plant("host/clock/clock.cpp", self.LICENCE + "int x;\n")
         self.assertEqual(run("house.py", self.root)[0], 0)
+
+
+@unittest.skipUnless(shutil.which("clang-tidy-14"), "clang-tidy-14 is not installed")
+class Tidy(ScratchTree):
+    """The files of a target are looked at as one text: what a check or the analyser finds, and where, is as of each file alone."""
+
+    GOOD = "#include <cstddef>\nnamespace pharos {\nstd::size_t twice(std::size_t x) { return 2 * x; }\n}  // namespace pharos\n"
+
+    def setUp(self):
+        super().setUp()
+        for folder in (".", "tests"):
+            self.plant(f"{folder}/.clang-tidy", (HERE.parents[1] / folder / ".clang-tidy").read_text())
+
+    def looked_at(self, **texts):
+        entries = []
+        for name, text in texts.items():
+            file = self.plant(f"host/clock/{name}.cpp", text)
+            command = f"c++ -std=c++20 -o host/clock/CMakeFiles/clock.dir/{name}.cpp.o -c {file}"
+            entries.append({"directory": str(self.root), "file": str(file), "command": command})
+        commands = self.plant("compile_commands.json", json.dumps(entries))
+        return run("tidy.py", self.root, commands, self.root / "work", "1", "host/")
+
+    def refused(self, text, line, reason):
+        code, output = self.looked_at(before=self.GOOD, clock="#include <cstddef>\n" + text)
+        self.assertEqual(code, 1, output)
+        self.assertRegex(output, rf"host/clock/clock\.cpp:{line}:.*{reason}")
+
+    def test_finds_a_name_of_another_style(self):
+        self.refused("\nint BadName() { return 1; }\n", 3, "readability-identifier-naming")
+
+    def test_finds_by_the_analyser(self):
+        self.refused("int at(const int* p) {\n  if (p == nullptr) return *p;\n  return 0;\n}\n", 3, "clang-analyzer-core.NullDereference")
+
+    def test_finds_what_is_looked_for_in_the_main_file_only(self):
+        self.refused("namespace other {}\nnamespace again = other;\n", 3, "misc-unused-alias-decls")
+
+    def test_finds_an_include_that_stands_twice_in_a_file(self):
+        self.refused("#include <cstddef>\n", 2, "readability-duplicate-include")
+
+    def test_an_include_of_two_files_is_none_twice(self):
+        code, output = self.looked_at(before=self.GOOD, clock=self.GOOD.replace("twice", "double_of"))
+        self.assertEqual(code, 0, output)
+        self.assertIn("2 files in 1 texts, 0 with findings", output)
 
 
 if __name__ == "__main__":
