@@ -129,6 +129,11 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   MeasuredEdge edge = measure_edge(image, target, guess, reach_px);
   Side side;
   side.cut = edge.cut;
+  // A line through two edges decided which rises are its own: of one of them, those on the other's side are missing.
+  if (keep_one_edge(edge.points, edge.structure_px, edge.corner_px) && !edge.points.empty()) {
+    edge = measure_edge(image, target, {edge.points.front().place_px, edge.points.back().place_px}, reach_px);
+    side.cut = side.cut || edge.cut;
+  }
   side.blur_px = edge.blur_px;
   side.contrast = edge.contrast;
   side.backing = edge.backing;
