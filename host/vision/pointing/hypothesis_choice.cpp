@@ -24,8 +24,12 @@ constexpr double kMaxTurnOfWing_rad = 0.15;
 class Chooser {
  public:
   Chooser(ImageView<const std::uint16_t> image, const TargetMask& target, const PinholeCamera& camera,
-          const std::vector<Segment>& outline)
-      : image_(image), target_(target), camera_(camera), outline_(outline), evidence_(image, target, camera, outline) {}
+          const std::vector<Segment>& outline, const std::vector<EdgePair>& pairs)
+      : image_(image),
+        target_(target),
+        camera_(camera),
+        outline_(outline),
+        evidence_(image, target, camera, outline, pairs) {}
 
   void measure(std::vector<EdgePair> pairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
@@ -151,7 +155,7 @@ class Chooser {
 Result<PanelMeasurement, PointingRefusal> choose_panel(ImageView<const std::uint16_t> image, const TargetMask& target,
                                                        const PinholeCamera& camera, const std::vector<Segment>& outline,
                                                        const std::vector<EdgePair>& pairs) {
-  Chooser chooser(image, target, camera, outline);
+  Chooser chooser(image, target, camera, outline, pairs);
   chooser.measure(pairs);
   return chooser.choice();
 }
