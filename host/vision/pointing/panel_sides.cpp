@@ -145,6 +145,7 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
     side.extent = {side.points.front().place_px, side.points.back().place_px};
   }
   if (!pointing::undo_distortion(side.points, camera)) return PointingRefusal::kOutsideLens;
+  keep_one_part(side.points);
   const auto fit = pointing::fit_line(side.points);
   if (!fit) return side.cut ? PointingRefusal::kCutByBorder : PointingRefusal::kEdgeUnsure;
   side.fit = *fit;
