@@ -39,6 +39,15 @@ bool is_beyond(const Segment& edge, const Segment& own) {
   return !is_beside(edge, own) && std::abs(own.offset(edge.middle())) < line_slack_px(own);
 }
 
+// Of an edge beyond another one's end: its own end that is nearer, and how far that is from it along the line.
+const Vector2& near_end(const Segment& edge, const Segment& own) {
+  return own.station(edge.middle()) > own.length() ? edge.begin : edge.end;
+}
+double gap_px(const Segment& edge, const Segment& own) {
+  const double at = own.station(near_end(edge, own));
+  return own.station(edge.middle()) > own.length() ? at - own.length() : -at;
+}
+
 // Whether the rest of the shorter of two sides may be hidden. Beside a panel's side a short edge of anything else is a
 // pair as well, and what confirms that side says nothing about it.
 bool are_alike(const Segment& one, const Segment& other) {
@@ -93,10 +102,7 @@ bool PanelEvidence::is_interrupted(const PanelHypothesis& h) const {
   }
   const auto goes_on = [&](const Segment& own, const Segment& edge) {
     if (edge.length() < kMinThirdEdge * own.length() || !is_beyond(edge, own)) return false;
-    const bool after = own.station(edge.middle()) > own.length();
-    const Vector2& near = after ? edge.begin : edge.end;
-    return (after ? own.station(near) - own.length() : -own.station(near)) < kMinGap_px &&
-           std::abs(own.offset(near)) < kMinStep_px;
+    return gap_px(edge, own) < kMinGap_px && std::abs(own.offset(near_end(edge, own))) < kMinStep_px;
   };
   return std::any_of(outline_.begin(), outline_.end(),
                      [&](const Segment& edge) { return goes_on(h.sides[0], edge) || goes_on(h.sides[1], edge); });
@@ -132,10 +138,11 @@ bool PanelEvidence::is_third(const PanelHypothesis& h, const Segment& edge) cons
   // As near to a narrow pair's other side, or to anything that hides its end, it is in line by accident: a boom's.
   if (line_slack_px(pair.middle) > kMaxSlackOfWidth * pair.separation) return false;
   if (is_of_a_narrower(pair, edge)) return false;
-  // In line with one of them and beyond its end: beside it a body's edges are as parallel. Where it is beside the other
-  // one, or the outline goes on to it, it is the rest of the same side.
+  // In line with one of them and beyond its end, with a gap: beside it a body's edges are as parallel. Where it is
+  // beside the other one, or the outline goes on to it, it is the rest of the same side.
   const auto is_thirds_side = [&](const Segment& own, const Segment& opposite) {
-    return is_beyond(edge, own) && !is_beside(edge, opposite) && !goes_on_between(own, edge);
+    return is_beyond(edge, own) && gap_px(edge, own) > kMinGap_px && !is_beside(edge, opposite) &&
+           !goes_on_between(own, edge);
   };
   if (!is_thirds_side(pair.first, pair.second) && !is_thirds_side(pair.second, pair.first)) return false;
   const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);
