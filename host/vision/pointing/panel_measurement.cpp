@@ -29,7 +29,7 @@ constexpr double kMinEndSigma_px = 0.001;
 
 // Of an edge's blur, how far an unknown tone curve moves edges before the sky, 1 sigma: none where grey values are
 // linear in light, up to 0.5 where they are a power of it.
-constexpr double kToneSigma = 0.1;
+constexpr double kToneSigma = 0.2;
 
 // Of the sigma of a panel's axis by its sides: where its ends are known so much better, they tell it.
 constexpr double kOfEndsBetter = 0.5;
