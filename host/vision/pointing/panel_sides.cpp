@@ -59,8 +59,11 @@ bool are_apart(const Side& one, const Side& other) {
 // Whether the outline turns inwards where one edge ends and the next one begins: a corner of one thing. What hides a
 // side's end turns it outwards.
 bool is_corner(const Segment& edge, const Segment& next) {
+  const double turn = edge.across().dot(next.along());  // its sine
+  if (turn < std::sin(kMinCornerTurn)) return false;
+  // Where edges meet at a small angle, each may be followed beyond their corner by so much more.
   const double slack = kCornerOff_px + kCornerOffFraction * edge.length();
-  return (next.begin - edge.end).norm() < slack && edge.across().dot(next.along()) > std::sin(kMinCornerTurn);
+  return std::abs(edge.offset(next.begin)) < slack && std::abs(edge.station(next.begin) - edge.length()) < slack / turn;
 }
 
 // Whether another face in the dark shows behind an end, and not the sky that is behind a side: it hides the panel
