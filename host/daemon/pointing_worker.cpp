@@ -29,7 +29,8 @@ ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
       result.advice = job.file.string() + ": " + pointing::advice_of(panel.error());
       return result;
     }
-    const pointing::PointingResult answer = pointing::answer_of(*panel, job.observation.sight);
+    const pointing::PointingResult answer =
+        pointing::answer_of(*panel, job.observation.sight, pointing::tone_of_bits(image.bits));
     if (answer.second_axis) {
       result.refusal = "panel_ambiguous";
       result.advice = job.file.string() + ": two pairs of edges may be the panel's";

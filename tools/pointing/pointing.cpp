@@ -95,7 +95,7 @@ class Measurer {
       }
       return std::nullopt;
     }
-    const pointing::PointingResult answer = pointing::answer_of(*panel, sight);
+    const pointing::PointingResult answer = pointing::answer_of(*panel, sight, pointing::tone_of_bits(image.bits));
     write_image(rows_, name, *panel, answer, station_);
     if (!picture.empty()) write_pointing_overlay(picture, image.view(), camera_, *panel, answer);
     if (answer.second_axis) return std::nullopt;  // a pass rests on what is sure
@@ -117,7 +117,7 @@ void report_time(const Options& options, const host::GreyImage& image, const Pin
   for (int k = 0; k < options.time; ++k) {
     const auto start = Clock::now();
     if (const auto panel = pointing::measure_panel(image.view(), camera))
-      static_cast<void>(pointing::answer_of(*panel, sight));
+      static_cast<void>(pointing::answer_of(*panel, sight, pointing::tone_of_bits(image.bits)));
     times_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
   }
   if (times_ms.empty()) return;

@@ -15,6 +15,11 @@ namespace pharos::pointing {
 /// was left out.
 bool keep_one_edge(std::vector<EdgePoint>& points, double structure_px, double corner_px);
 
+/// Leaves the longer part of an edge that has a step: where something else begins behind it, grey values that are no
+/// multiple of the light move it otherwise, or another edge begins there, too near for a gap. `points`: in order, in
+/// the ideal image, where a straight edge is straight. True where something was left out.
+bool keep_one_part(std::vector<EdgePoint>& points);
+
 /// Points are one to 1.4 px apart; noise or a star interrupts an edge for less.
 inline constexpr double kEdgeGap_px = 5.0;
 

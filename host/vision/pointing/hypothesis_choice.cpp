@@ -24,8 +24,12 @@ constexpr double kMaxTurnOfWing_rad = 0.15;
 class Chooser {
  public:
   Chooser(ImageView<const std::uint16_t> image, const TargetMask& target, const PinholeCamera& camera,
-          const std::vector<Segment>& outline)
-      : image_(image), target_(target), camera_(camera), outline_(outline), evidence_(image, target, camera, outline) {}
+          const std::vector<Segment>& outline, const std::vector<EdgePair>& pairs)
+      : image_(image),
+        target_(target),
+        camera_(camera),
+        outline_(outline),
+        evidence_(image, target, camera, outline, pairs) {}
 
   void measure(std::vector<EdgePair> pairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
@@ -123,6 +127,16 @@ class Chooser {
     return longest;
   }
 
+  // Whether an axis is out of one of an edge's planes, which are known where the axis along them is not.
+  static bool leaves(const AxisEstimate& axis, const AxisPlanes& planes) {
+    return std::any_of(planes.begin(), planes.end(), [&](const AxisPlane& plane) {
+      const double off = std::abs(std::asin(std::clamp(plane.normal.dot(axis.axis), -1.0, 1.0)));
+      const double sigma =
+          std::hypot(plane.sigma_rad(axis.axis), std::sqrt(plane.normal.dot(axis.covariance * plane.normal)));
+      return off > std::max(kOtherAxis_rad, kMaxSigmas * sigma);
+    });
+  }
+
   static bool is_rival(const PanelHypothesis& best, const PanelHypothesis& other) {
     // Pieces of a body's two sides beside its wings are in line as a wing's panels are, and shorter than a panel of it.
     const double min_length =
@@ -132,7 +146,8 @@ class Chooser {
     if (other.axis.sigma_rad() > kUnsureSigma_rad) return !lies_in(other.measurement.long_planes, best.axis);
     if (best.axis.sigma_rad() > kUnsureSigma_rad) return !lies_in(best.measurement.long_planes, other.axis);
     const double sigma = std::hypot(best.axis.sigma_rad(), other.axis.sigma_rad());
-    return angle_of(best.axis.axis, other.axis.axis) > std::max(kOtherAxis_rad, kMaxSigmas * sigma);
+    return angle_of(best.axis.axis, other.axis.axis) > std::max(kOtherAxis_rad, kMaxSigmas * sigma) ||
+           leaves(best.axis, other.measurement.long_planes) || leaves(other.axis, best.measurement.long_planes);
   }
 
   ImageView<const std::uint16_t> image_;
@@ -151,7 +166,7 @@ class Chooser {
 Result<PanelMeasurement, PointingRefusal> choose_panel(ImageView<const std::uint16_t> image, const TargetMask& target,
                                                        const PinholeCamera& camera, const std::vector<Segment>& outline,
                                                        const std::vector<EdgePair>& pairs) {
-  Chooser chooser(image, target, camera, outline);
+  Chooser chooser(image, target, camera, outline, pairs);
   chooser.measure(pairs);
   return chooser.choice();
 }

@@ -6,6 +6,7 @@
 
 #include "host/vision/pointing/hypothesis_choice.hpp"
 #include "host/vision/pointing/outline.hpp"
+#include "host/vision/pointing/tone_error.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::pointing {
@@ -26,6 +27,12 @@ PointingRefusal why_no_panel(const std::vector<Segment>& edges, const TargetMask
   return PointingRefusal::kOneEdge;
 }
 
+void widen(const ToneError& tone_error, const Matrix3& R_station_camera, AxisEstimate& axis) {
+  const Vector3 error = tone_error.sigma * (R_station_camera * tone_error.shift);
+  axis.covariance += error * error.transpose();
+  axis.sigma_along_rad = std::hypot(axis.sigma_along_rad, error.norm());
+}
+
 }  // namespace
 
 Result<PanelMeasurement, PointingRefusal> measure_panel(ImageView<const std::uint16_t> image,
@@ -41,7 +48,7 @@ Result<PanelMeasurement, PointingRefusal> measure_panel(ImageView<const std::uin
   return result;
 }
 
-PointingResult answer_of(const PanelMeasurement& panel, const pointing::LineOfSight& sight) {
+PointingResult answer_of(const PanelMeasurement& panel, const pointing::LineOfSight& sight, Tone tone) {
   const Matrix3 R = pointing::camera_to_station(sight);
   PointingResult result;
   result.flags = panel.flags;
@@ -58,6 +65,7 @@ PointingResult answer_of(const PanelMeasurement& panel, const pointing::LineOfSi
     result.axis.sigma_along_rad *= std::sqrt(widening);
     result.axis.sigma_plane_rad *= std::sqrt(widening);
   }
+  if (tone == Tone::kUnknown) widen(tone_error(panel), R, result.axis);
   if (!panel.other_planes.empty()) {
     const auto other = pointing::estimate_axis({panel.other_planes.data(), panel.other_planes.size()});
     if (other) result.second_axis = pointing::signed_axis(R * other->axis);

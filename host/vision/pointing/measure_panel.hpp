@@ -35,6 +35,9 @@ inline constexpr std::array<FlagWord, 4> kPointingFlagWords = {{{kFlagOnePanel, 
 struct PanelMeasurement {
   pointing::AxisPlanes long_planes;
   pointing::AxisPlanes short_planes;
+  /// The same edges, moved outwards by what an unknown tone curve may move them (1 sigma).
+  pointing::AxisPlanes long_planes_moved;
+  pointing::AxisPlanes short_planes_moved;
   pointing::AxisPlanes other_planes;  ///< long sides of what may as well be the panel; empty where nothing else may
   std::vector<Segment> long_edges;    ///< in the ideal image, for pictures
   std::vector<Segment> short_edges;
@@ -61,6 +64,14 @@ struct PointingResult {
   double sigma_square_rad = 0.0;
   std::uint8_t flags = 0;
 };
-PointingResult answer_of(const PanelMeasurement& panel, const pointing::LineOfSight& sight);
+/// How grey values follow the light.
+enum class Tone : std::uint8_t {
+  kLinear,   // a sensor's own values
+  kUnknown,  // they may be a power of the light, as those for screens are
+};
+/// Values of 16 bits are taken for a sensor's own, those of 8 bits for what may have been made for screens.
+inline Tone tone_of_bits(int bits) { return bits > 8 ? Tone::kLinear : Tone::kUnknown; }
+
+PointingResult answer_of(const PanelMeasurement& panel, const pointing::LineOfSight& sight, Tone tone);
 
 }  // namespace pharos::pointing

@@ -17,7 +17,6 @@ constexpr double kMaxSeparation = 3.0;  // times the overlap: foreshortened pane
 constexpr double kMinFill = 0.85;       // of the strip between the edges
 constexpr double kWingTurn = 0.08;      // rad between the middle lines of a wing's panels
 constexpr double kWingOff = 0.35;       // of one's middle from the other's line, in separations
-constexpr double kWingWidths = 1.7;     // ratio of separations
 
 // Of the strip between two edges that converge, from one end of their overlap to the other.
 double fraction_filled(const TargetMask& target, const Segment& first, const Segment& second) {

@@ -18,6 +18,9 @@ struct EdgePair {
 /// Pairs of edges by length, slope, end points and mutual convergence.
 std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const TargetMask& target);
 
+/// The largest ratio of the separations of a wing's two panels in the image.
+inline constexpr double kWingWidths = 1.7;
+
 /// Whether two pairs stand in one line in the image with a gap between them, as a wing's panels do.
 bool is_wing(const EdgePair& a, const EdgePair& b);
 

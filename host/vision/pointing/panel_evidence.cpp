@@ -22,6 +22,8 @@ constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
 constexpr double kBesideLine_px = 5.0;
 constexpr double kSkySigmas = 5.0;
 constexpr double kMinOfGap = 0.7;  // what stands out of a body hides the rest
+// Of a side's length, the other one's: a panel's are alike, a body may hide a part of one.
+constexpr double kMinSidesAlike = 0.3;
 // Of the target's pixels that a lone panel of a hardly known axis must cover: booms cover 3 to 9 % of them.
 constexpr double kMinFractionOfTarget = 0.2;
 
@@ -37,9 +39,33 @@ bool is_beyond(const Segment& edge, const Segment& own) {
   return !is_beside(edge, own) && std::abs(own.offset(edge.middle())) < line_slack_px(own);
 }
 
+// Of an edge beyond another one's end: its own end that is nearer, and how far that is from it along the line.
+const Vector2& near_end(const Segment& edge, const Segment& own) {
+  return own.station(edge.middle()) > own.length() ? edge.begin : edge.end;
+}
+double gap_px(const Segment& edge, const Segment& own) {
+  const double at = own.station(near_end(edge, own));
+  return own.station(edge.middle()) > own.length() ? at - own.length() : -at;
+}
+
+// Whether the rest of the shorter of two sides may be hidden. Beside a panel's side a short edge of anything else is a
+// pair as well, and what confirms that side says nothing about it.
+bool are_alike(const Segment& one, const Segment& other) {
+  const double first = one.length(), second = other.length();
+  return std::min(first, second) > kMinSidesAlike * std::max(first, second);
+}
+
+bool has_alike_sides(const PanelHypothesis& h) {
+  // A lone panel's long sides in space may be the short ones in the image.
+  if (!h.is_wing()) return are_alike(h.sides[0], h.sides[1]);
+  return std::all_of(h.pairs.begin(), h.pairs.end(),
+                     [](const EdgePair& pair) { return are_alike(pair.first, pair.second); });
+}
+
 }  // namespace
 
 bool PanelEvidence::is_confirmed(const PanelHypothesis& h) const {
+  if (!has_alike_sides(h)) return false;
   if (h.axis.sigma_rad() > kUnsureSigma_rad) return h.is_wing() || is_much_of_target(h);
   if (is_interrupted(h)) return false;
   // The outline of something else, but for two ends that are whole.
@@ -76,10 +102,7 @@ bool PanelEvidence::is_interrupted(const PanelHypothesis& h) const {
   }
   const auto goes_on = [&](const Segment& own, const Segment& edge) {
     if (edge.length() < kMinThirdEdge * own.length() || !is_beyond(edge, own)) return false;
-    const bool after = own.station(edge.middle()) > own.length();
-    const Vector2& near = after ? edge.begin : edge.end;
-    return (after ? own.station(near) - own.length() : -own.station(near)) < kMinGap_px &&
-           std::abs(own.offset(near)) < kMinStep_px;
+    return gap_px(edge, own) < kMinGap_px && std::abs(own.offset(near_end(edge, own))) < kMinStep_px;
   };
   return std::any_of(outline_.begin(), outline_.end(),
                      [&](const Segment& edge) { return goes_on(h.sides[0], edge) || goes_on(h.sides[1], edge); });
@@ -114,10 +137,12 @@ bool PanelEvidence::is_third(const PanelHypothesis& h, const Segment& edge) cons
   if (is_own(pair.first) || is_own(pair.second)) return false;
   // As near to a narrow pair's other side, or to anything that hides its end, it is in line by accident: a boom's.
   if (line_slack_px(pair.middle) > kMaxSlackOfWidth * pair.separation) return false;
-  // In line with one of them and beyond its end: beside it a body's edges are as parallel. Where it is beside the other
-  // one, or the outline goes on to it, it is the rest of the same side.
+  if (is_of_a_narrower(pair, edge)) return false;
+  // In line with one of them and beyond its end, with a gap: beside it a body's edges are as parallel. Where it is
+  // beside the other one, or the outline goes on to it, it is the rest of the same side.
   const auto is_thirds_side = [&](const Segment& own, const Segment& opposite) {
-    return is_beyond(edge, own) && !is_beside(edge, opposite) && !goes_on_between(own, edge);
+    return is_beyond(edge, own) && gap_px(edge, own) > kMinGap_px && !is_beside(edge, opposite) &&
+           !goes_on_between(own, edge);
   };
   if (!is_thirds_side(pair.first, pair.second) && !is_thirds_side(pair.second, pair.first)) return false;
   const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);
@@ -126,6 +151,15 @@ bool PanelEvidence::is_third(const PanelHypothesis& h, const Segment& edge) cons
   const AxisPlane plane = plane_of_line(side->fit.line, camera_);
   // An edge whose own direction is open would lie along anything.
   return plane.sigma_rad(h.axis.axis) < kMaxSquareSigma_rad && lies_along(plane, h.axis);
+}
+
+// Whether an edge faces another one that is too near for a wing's other panel: something else, or hardly any of it
+// seen.
+bool PanelEvidence::is_of_a_narrower(const EdgePair& own, const Segment& edge) const {
+  const auto is_it = [&](const Segment& other) { return edge.begin == other.begin && edge.end == other.end; };
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const EdgePair& pair) {
+    return (is_it(pair.first) || is_it(pair.second)) && kWingWidths * pair.separation < own.separation;
+  });
 }
 
 // The outline's slack holds what is in line by accident; a wing's edges are one straight line, once measured.

@@ -53,6 +53,7 @@ bool settle_sides(const EdgePair& pair, const PanelSides& measured, const Pinhol
   if (in_space->minimum >= kMinAspect) return true;
   if (in_space->maximum * kMinAspect > 1.0 || panel.short_planes.size() < 2) return false;
   std::swap(panel.long_planes, panel.short_planes);
+  std::swap(panel.long_planes_moved, panel.short_planes_moved);
   std::swap(panel.long_edges, panel.short_edges);
   lone.sides = {measured.ends[0].extent, measured.ends[1].extent};
   lone.whole_ends = panel.short_edges.size();
@@ -69,6 +70,7 @@ bool settle_wing(PanelHypothesis& wing, const PinholeCamera& camera) {
   if (!in_space || in_space->minimum >= kMinAspect) return true;
   if (in_space->maximum * kMinAspect > 1.0 || wing.measurement.short_planes.size() < 2) return false;
   std::swap(wing.measurement.long_planes, wing.measurement.short_planes);
+  std::swap(wing.measurement.long_planes_moved, wing.measurement.short_planes_moved);
   std::swap(wing.measurement.long_edges, wing.measurement.short_edges);
   const auto axis = axis_of(wing.measurement);
   if (!axis) return false;

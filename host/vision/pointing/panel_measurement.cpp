@@ -27,6 +27,10 @@ constexpr double kUnknownEndFraction = 0.3;  // of edges whose direction in spac
 // And at least this: what edges without structure are off beyond their points' scatter.
 constexpr double kMinEndSigma_px = 0.001;
 
+// Of an edge's blur, how far an unknown tone curve moves edges before the sky, 1 sigma: none where grey values are
+// linear in light, up to 0.5 where they are a power of it.
+constexpr double kToneSigma = 0.2;
+
 // Of the sigma of a panel's axis by its sides: where its ends are known so much better, they tell it.
 constexpr double kOfEndsBetter = 0.5;
 
@@ -36,9 +40,11 @@ double squares(const LineFit& fit) { return fit.rms_px * fit.rms_px * static_cas
 struct SharedLine {
   LineFit fit;
   double structure_px = 0.0;
+  Vector2 outwards = Vector2::Zero();  // from the target
+  double blur_px = 0.0;
 };
 
-SharedLine line_of(const Side& side) { return {side.fit, side.structure_px}; }
+SharedLine line_of(const Side& side) { return {side.fit, side.structure_px, -side.extent.across(), side.blur_px}; }
 
 // Two edges that are pieces of one line: the fit of both, if it is no worse than each by itself.
 std::optional<SharedLine> as_one_line(const Side& a, const Side& b) {
@@ -54,7 +60,7 @@ std::optional<SharedLine> as_one_line(const Side& a, const Side& b) {
   const double worse = (squares(*fit) - apart) / std::max(1e-12, variance);
   const double correlated = std::max({1.0, a.fit.variance_inflation, b.fit.variance_inflation});
   if (worse > kOneLineChi2 * correlated) return std::nullopt;
-  return SharedLine{*fit, std::max(a.structure_px, b.structure_px)};
+  return SharedLine{*fit, std::max(a.structure_px, b.structure_px), -a.extent.across(), 0.5 * (a.blur_px + b.blur_px)};
 }
 
 AxisPlane plane_of(const SharedLine& line, double end_fraction, const PinholeCamera& camera) {
@@ -84,6 +90,17 @@ AxisPlanes planes_of(const std::vector<SharedLine>& lines, const PinholeCamera& 
     planes[k] = plane_of(lines[k], std::max(kMinEndFraction, kEndPerDepthChange * change), camera);
   }
   return planes;
+}
+
+// The planes' normals where a tone curve moves all edges outwards by a fraction of their blur.
+AxisPlanes moved_outwards(const std::vector<SharedLine>& lines, const AxisPlanes& planes, const PinholeCamera& camera) {
+  AxisPlanes moved;
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    ImageLine line = lines[k].fit.line;
+    line.coefficients.z() -= kToneSigma * lines[k].blur_px * line.coefficients.head<2>().dot(lines[k].outwards);
+    moved.push_back({pointing::plane_of_line(line, camera).normal, planes[k].covariance});
+  }
+  return moved;
 }
 
 // A wing's four long edges as two lines, where they are.
@@ -150,6 +167,8 @@ PanelMeasurement measurement_of(const std::vector<PanelSides>& panels, const Pin
   result.long_edges = segments_of(sides);
   result.short_planes = planes_of(ends, camera);
   result.short_edges = segments_of(ends);
+  result.long_planes_moved = moved_outwards(sides, result.long_planes, camera);
+  result.short_planes_moved = moved_outwards(ends, result.short_planes, camera);
   double square = 0.0, points = 0.0;
   for (const PanelSides& panel : panels) {
     for (const Side* side : {&panel.first, &panel.second}) {

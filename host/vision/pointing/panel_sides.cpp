@@ -59,8 +59,11 @@ bool are_apart(const Side& one, const Side& other) {
 // Whether the outline turns inwards where one edge ends and the next one begins: a corner of one thing. What hides a
 // side's end turns it outwards.
 bool is_corner(const Segment& edge, const Segment& next) {
+  const double turn = edge.across().dot(next.along());  // its sine
+  if (turn < std::sin(kMinCornerTurn)) return false;
+  // Where edges meet at a small angle, each may be followed beyond their corner by so much more.
   const double slack = kCornerOff_px + kCornerOffFraction * edge.length();
-  return (next.begin - edge.end).norm() < slack && edge.across().dot(next.along()) > std::sin(kMinCornerTurn);
+  return std::abs(edge.offset(next.begin)) < slack && std::abs(edge.station(next.begin) - edge.length()) < slack / turn;
 }
 
 // Whether another face in the dark shows behind an end, and not the sky that is behind a side: it hides the panel
@@ -129,6 +132,11 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   MeasuredEdge edge = measure_edge(image, target, guess, reach_px);
   Side side;
   side.cut = edge.cut;
+  // A line through two edges decided which rises are its own: of one of them, those on the other's side are missing.
+  if (keep_one_edge(edge.points, edge.structure_px, edge.corner_px) && !edge.points.empty()) {
+    edge = measure_edge(image, target, {edge.points.front().place_px, edge.points.back().place_px}, reach_px);
+    side.cut = side.cut || edge.cut;
+  }
   side.blur_px = edge.blur_px;
   side.contrast = edge.contrast;
   side.backing = edge.backing;
@@ -140,6 +148,7 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
     side.extent = {side.points.front().place_px, side.points.back().place_px};
   }
   if (!pointing::undo_distortion(side.points, camera)) return PointingRefusal::kOutsideLens;
+  keep_one_part(side.points);
   const auto fit = pointing::fit_line(side.points);
   if (!fit) return side.cut ? PointingRefusal::kCutByBorder : PointingRefusal::kEdgeUnsure;
   side.fit = *fit;

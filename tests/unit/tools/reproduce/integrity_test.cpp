@@ -34,7 +34,7 @@ TEST(Integrity, CountsAreByStatusAndAvailabilityByTheRule) {
                                               {true, "refused_no_panel", {}},
                                               {false, "refused_no_panel", {}},
                                               {true, "ambiguous", {}}};
-  const IntegrityKind kind{"kind", "always", [&](std::uint64_t seed) { return trials[seed - 7]; }, {}};
+  const IntegrityKind kind{"kind", "always", [&](std::uint64_t seed) { return trials[seed - 7]; }, {}, {}};
   int steps = 0;
   const IntegrityCounts counts = run_integrity(kind, 7, 5, nullptr, [&] { ++steps; });
   EXPECT_EQ(steps, 5);

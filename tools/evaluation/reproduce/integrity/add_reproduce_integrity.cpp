@@ -19,6 +19,7 @@ constexpr const char* kExample =
     "Example:\n"
     "  pharos reproduce integrity --markdown\n"
     "  pharos reproduce integrity --kind ring2 --count 200 --trials trials.csv\n"
+    "  pharos reproduce integrity --kind line --count 400 --tone-curve --markdown\n"
     "  pharos reproduce integrity --kind line --seed 17 --write pictures";
 
 struct Options {
@@ -27,11 +28,13 @@ struct Options {
   std::uint64_t seed = 1;
   std::string trials;
   std::string folder;
+  bool tone_curve = false;
   bool markdown = false;
   OutputOptions output;
 };
 
 bool is_wanted(const Options& options, const IntegrityKind& kind) {
+  if (options.tone_curve && !kind.toned) return false;
   return options.kinds.empty() ||
          std::find(options.kinds.begin(), options.kinds.end(), kind.name) != options.kinds.end();
 }
@@ -49,8 +52,9 @@ int run(const Options& options) {
   std::unique_ptr<Output> trials;
   if (!options.trials.empty()) trials = std::make_unique<Output>(OutputOptions{false, options.trials}, trial_columns());
   std::vector<ComparisonRow> rows;
-  for (const IntegrityKind& kind : integrity_kinds()) {
+  for (IntegrityKind kind : integrity_kinds()) {
     if (!is_wanted(options, kind)) continue;
+    if (options.tone_curve) kind.trial = kind.toned;
     Progress progress("integrity " + kind.name, "trials", static_cast<std::size_t>(options.count));
     const IntegrityCounts counts =
         run_integrity(kind, options.seed, options.count, trials ? &trials->rows() : nullptr, [&] { progress.step(); });
@@ -80,6 +84,8 @@ void add_reproduce_integrity(CLI::App& reproduce, int& exit_code) {
   add_seed_option(*command, options->seed, "The first one");
   command->add_option("--trials", options->trials, "File for one row a quantity of every trial");
   command->add_option("--write", options->folder, "Instead: what is measured of the first seed, into this folder");
+  command->add_flag("--tone-curve", options->tone_curve,
+                    "By cameras whose grey values are a power of the light: 0.45 to 0.6; ring2 and line");
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);
   command->footer(kExample);

@@ -8,6 +8,7 @@
 #include "host/images/grey_image.hpp"
 #include "host/vision/pointing/measure_panel.hpp"
 #include "pharos/base/units.hpp"
+#include "tools/sim/optics/tone_curve.hpp"
 #include "tools/sim/output_files.hpp"
 #include "tools/sim/pointing/random_satellite.hpp"
 #include "tools/sim/pointing/sky_frames.hpp"
@@ -29,9 +30,10 @@ bool is_answerable(const sim::RandomSatellite& satellite) {
          satellite.panel_px > kMinPanel_px;
 }
 
-IntegrityTrial trial_of(std::uint64_t seed) {
+IntegrityTrial trial_of(std::uint64_t seed, double tone_power) {
   const sim::RandomSatellite satellite = sim::random_satellite(seed);
-  const host::GreyImage image = sim::image_of(satellite, seed);
+  host::GreyImage image = sim::image_of(satellite, seed);
+  sim::apply_tone_curve(image, tone_power);
   IntegrityTrial trial;
   trial.answerable = is_answerable(satellite);
   const auto panel = pointing::measure_panel(image.view(), sim::optics_as<PinholeCamera>(satellite.lens));
@@ -39,7 +41,8 @@ IntegrityTrial trial_of(std::uint64_t seed) {
     trial.status = std::string("refused_") + pointing::name_of(panel.error());
     return trial;
   }
-  const pointing::PointingResult answer = pointing::answer_of(*panel, {kAzimuth_rad, kElevation_rad});
+  const pointing::PointingResult answer =
+      pointing::answer_of(*panel, {kAzimuth_rad, kElevation_rad}, pointing::tone_of_bits(image.bits));
   trial.status = answer.second_axis ? "ambiguous" : "ok";
   const Vector3 truth = sim::station_from_camera(kAzimuth_rad, kElevation_rad) * satellite.axis_camera;
   const double error_deg = std::asin(std::min(1.0, answer.axis.axis.cross(truth).norm())) * kDegPerRad;
@@ -66,7 +69,8 @@ IntegrityKind pointing_kind() {
       "line",
       "every panel is whole in the image, one of them longer than 120 px, the axis more than 20 deg off the line of "
       "sight, the panels' normal within 60 deg of it, the sun within 65 deg of that normal",
-      trial_of, write_image};
+      [](std::uint64_t seed) { return trial_of(seed, 1.0); }, write_image,
+      [](std::uint64_t seed) { return trial_of(seed, sim::tone_power(seed)); }};
 }
 
 }  // namespace pharos::tools

@@ -7,6 +7,7 @@
 #include "host/vision/ring2/ring2_detector.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/evaluation/reproduce/ring2/simulated_pair.hpp"
+#include "tools/sim/optics/tone_curve.hpp"
 #include "tools/sim/output_files.hpp"
 #include "tools/sim/ring2/random_target.hpp"
 #include "tools/sim/ring2/ring2_writer.hpp"
@@ -30,9 +31,10 @@ std::array<host::GreyImage, 2> images_of(const sim::RandomTarget& target, std::u
   return {sim::image_of(target, 0, seed), sim::image_of(target, 1, seed)};
 }
 
-IntegrityTrial trial_of(std::uint64_t seed) {
+IntegrityTrial trial_of(std::uint64_t seed, double tone_power) {
   const sim::RandomTarget target = sim::random_target(seed);
-  const std::array<host::GreyImage, 2> images = images_of(target, seed);
+  std::array<host::GreyImage, 2> images = images_of(target, seed);
+  for (host::GreyImage& image : images) sim::apply_tone_curve(image, tone_power);
   host::Ring2Detector detector(ring2::core_rig(target.rig), {});
   const host::Ring2Detection found = detector.find({images[0].view(), images[1].view()});
   IntegrityTrial trial;
@@ -68,7 +70,8 @@ IntegrityKind ring2_kind() {
       "ring2",
       "ring and nozzle are whole in both images, the nozzle's semi-minor axis above 15 px, the sun within 65 deg of "
       "the ring's normal, no boom across it and no second ring with a nozzle",
-      trial_of, write_pair};
+      [](std::uint64_t seed) { return trial_of(seed, 1.0); }, write_pair,
+      [](std::uint64_t seed) { return trial_of(seed, sim::tone_power(seed)); }};
 }
 
 }  // namespace pharos::tools

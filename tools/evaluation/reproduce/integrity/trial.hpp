@@ -39,6 +39,8 @@ struct IntegrityKind {
   std::function<IntegrityTrial(std::uint64_t seed)> trial;
   /// Writes the images of that seed's trial, for inspection.
   std::function<void(std::uint64_t seed, const std::filesystem::path& folder)> write;
+  /// The same trial by cameras whose grey values are a power of the light (sim::tone_power); empty: no grey pictures.
+  std::function<IntegrityTrial(std::uint64_t seed)> toned = {};
 };
 
 /// All kinds, by the names that --kind takes.

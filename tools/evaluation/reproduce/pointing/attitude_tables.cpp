@@ -168,7 +168,8 @@ Answer ours_of(const host::GreyImage& image, const PinholeCamera& camera, const 
     answer.remark = "ours: refused_" + std::string(pointing::name_of(panel.error()));
     return answer;
   }
-  const pointing::PointingResult result = pointing::answer_of(*panel, {view.azimuth_rad, view.elevation_rad});
+  const pointing::PointingResult result =
+      pointing::answer_of(*panel, {view.azimuth_rad, view.elevation_rad}, pointing::tone_of_bits(image.bits));
   answer.axis = turned_to(result.axis.axis, row);
   answer.square_rad = result.square_rad;
   answer.remark = "ours " + number(angle_deg(answer.axis, printed_axis(row))) + " deg, sigma " +

@@ -34,7 +34,7 @@ struct Figures {
                                      sim::optics_as<PinholeCamera>(scenario.camera));
     if (!panel) return;
     ++answered;
-    const PointingResult answer = answer_of(*panel, sight_of(scenario.views[index]));
+    const PointingResult answer = answer_of(*panel, sight_of(scenario.views[index]), Tone::kLinear);
     const Vector3 truth = scenario.views[index].R_station_body.col(0);
     const double axis = angle_between(answer.axis.axis, truth);
     const double plane = std::abs(std::asin(answer.axis.plane.normal.dot(truth)));
@@ -125,7 +125,8 @@ TEST_P(PointingCampaignPass, ReportsTheAxisUnderItsLawAndRejectsAnother) {
         measure_panel(sim::pointing_image(scenario, k, kSeed).view(), sim::optics_as<PinholeCamera>(scenario.camera));
     if (!panel) continue;
     // No ranges, as at an optical station.
-    images.push_back({{view.time_s, sight_of(view), 0.0}, answer_of(*panel, sight_of(view)).planes_station});
+    images.push_back(
+        {{view.time_s, sight_of(view), 0.0}, answer_of(*panel, sight_of(view), Tone::kLinear).planes_station});
   }
   const pointing::PassSolution answer = solve(scenario, law, images);
   ASSERT_FALSE(answer.failure) << name << " " << pointing::name_of(*answer.failure);

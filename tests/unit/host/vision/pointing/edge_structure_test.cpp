@@ -28,8 +28,8 @@ RimmedPanel measure_rimmed(double out_rad, double range_m) {
   EXPECT_TRUE(without.ok() && with.ok());
   RimmedPanel result;
   if (!without || !with) return result;
-  result.answer = answer_of(*with, rimmed.sight);
-  result.widened = result.answer.axis.sigma_rad() / answer_of(*without, plain.sight).axis.sigma_rad();
+  result.answer = answer_of(*with, rimmed.sight, Tone::kLinear);
+  result.widened = result.answer.axis.sigma_rad() / answer_of(*without, plain.sight, Tone::kLinear).axis.sigma_rad();
   const Vector3& axis = result.answer.axis.axis;
   result.error_rad = std::atan2(axis.cross(rimmed.axis_station).norm(), std::abs(axis.dot(rimmed.axis_station)));
   return result;

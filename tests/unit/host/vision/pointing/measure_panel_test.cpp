@@ -28,7 +28,7 @@ TEST(MeasurePanel, FindsTheAxisOfAPaintedPanelAndItsErrorIsWhatIsStated) {
     scene.set_axis(0.27 * k, 0.5 - 0.04 * k);
     const auto panel = measure_panel(scene.image(static_cast<unsigned>(k)).view(), scene.camera);
     ASSERT_TRUE(panel.ok()) << k << " " << name_of(panel.error());
-    const PointingResult answer = answer_of(*panel, scene.sight);
+    const PointingResult answer = answer_of(*panel, scene.sight, Tone::kLinear);
     const double error = angle_between(answer.axis.axis, scene.axis_station);
     EXPECT_LT(error * kDegPerRad, 0.3) << k;
     EXPECT_LT(std::abs(answer.axis.plane.normal.dot(scene.axis_station)), 5.0 * answer.axis.sigma_plane_rad) << k;
@@ -50,7 +50,7 @@ TEST(MeasurePanel, FromFarAwayOnlyThePlaneIsObservable) {
   scene.set_axis(0.6, 0.5);
   const auto panel = measure_panel(scene.image().view(), scene.camera);
   ASSERT_TRUE(panel.ok());
-  const PointingResult answer = answer_of(*panel, scene.sight);
+  const PointingResult answer = answer_of(*panel, scene.sight, Tone::kLinear);
   EXPECT_NE(answer.flags & kFlagPlaneOnly, 0);
   EXPECT_GT(answer.axis.sigma_rad() * kDegPerRad, 40.0);
   EXPECT_LT(std::abs(answer.axis.plane.normal.dot(scene.axis_station)), 4.0 * answer.axis.sigma_plane_rad);
@@ -75,7 +75,7 @@ TEST(MeasurePanel, SidesOfANearPanelConverge) {
   const Vector2 first = panel->long_edges[0].along(), second = panel->long_edges[1].along();
   EXPECT_LT(std::abs(first.dot(second)), std::cos(0.2));
   EXPECT_EQ(panel->short_planes.size(), 2u);  // the ends confirm it
-  const PointingResult answer = answer_of(*panel, scene.sight);
+  const PointingResult answer = answer_of(*panel, scene.sight, Tone::kLinear);
   EXPECT_FALSE(answer.second_axis.has_value());
   EXPECT_LT(angle_between(answer.axis.axis, scene.axis_station), 5.0 * answer.axis.sigma_rad());
   EXPECT_LT(angle_between(answer.axis.axis, scene.axis_station) * kDegPerRad, 0.3);
@@ -154,7 +154,7 @@ TEST(MeasurePanel, ABodysOutlineDoesNotAnswerForAPanelThatNothingConfirms) {
   host::GreyImage image = over(panel.image(), body.image());
   const auto whole = measure_panel(image.view(), panel.camera);
   ASSERT_TRUE(whole.ok());
-  const PointingResult with_ends = answer_of(*whole, panel.sight);
+  const PointingResult with_ends = answer_of(*whole, panel.sight, Tone::kLinear);
   EXPECT_FALSE(with_ends.second_axis.has_value());
   EXPECT_LT(angle_between(with_ends.axis.axis, panel.axis_station) * kDegPerRad, 0.5);
   // A round shape before one end.
@@ -163,7 +163,7 @@ TEST(MeasurePanel, ABodysOutlineDoesNotAnswerForAPanelThatNothingConfirms) {
   paint_disc(end.middle(), 0.6 * end.length(), image);
   const auto hidden = measure_panel(image.view(), panel.camera);
   if (hidden.ok()) {
-    EXPECT_TRUE(answer_of(*hidden, panel.sight).second_axis.has_value());
+    EXPECT_TRUE(answer_of(*hidden, panel.sight, Tone::kLinear).second_axis.has_value());
   }
 }
 
@@ -197,7 +197,7 @@ TEST(MeasurePanel, ALongerPanelCompetesWithAWing) {
     lone.length_m = length_m;
     const auto panel = measure_panel(over(two, lone.image()).view(), wing.camera);
     EXPECT_TRUE(panel.ok());
-    return answer_of(*panel, wing.sight);
+    return answer_of(*panel, wing.sight, Tone::kLinear);
   };
   const PointingResult beside_longer = answer_beside(4.2);
   ASSERT_TRUE(beside_longer.second_axis.has_value());
@@ -220,7 +220,7 @@ TEST(MeasurePanel, APlaneRegionWithOneEndIsAPanel) {
   const auto hidden = measure_panel(with_a_hidden_end(panel, panel.image()).view(), panel.camera);
   ASSERT_TRUE(hidden.ok()) << name_of(hidden.error());
   EXPECT_EQ(hidden->short_planes.size(), 1u);
-  const PointingResult answer = answer_of(*hidden, panel.sight);
+  const PointingResult answer = answer_of(*hidden, panel.sight, Tone::kLinear);
   EXPECT_FALSE(answer.second_axis.has_value());
   EXPECT_LT(angle_between(answer.axis.axis, panel.axis_station), 5.0 * answer.axis.sigma_rad());
 }
@@ -287,7 +287,8 @@ TEST(MeasurePanel, StarsEvenBrighterOnesChangeNothing) {
   for (int k = 0; k < 30; ++k) testing::add_star(image, 20.0 + 15.0 * k, k % 2 == 0 ? 30.0 : 470.0, 60000.0);
   const auto after = measure_panel(image.view(), scene.camera);
   ASSERT_TRUE(before.ok() && after.ok());
-  EXPECT_LT(angle_between(answer_of(*before, scene.sight).axis.axis, answer_of(*after, scene.sight).axis.axis),
+  EXPECT_LT(angle_between(answer_of(*before, scene.sight, Tone::kLinear).axis.axis,
+                          answer_of(*after, scene.sight, Tone::kLinear).axis.axis),
             0.02 * kRadPerDeg);
 }
 
@@ -301,7 +302,8 @@ TEST(MeasurePanel, UndoesTheLens) {
   bent.distortion = {-3.0, 0.0, 0.0, 0.0, 0.0};
   const auto straight = measure_panel(image.view(), scene.camera), curved = measure_panel(image.view(), bent);
   ASSERT_TRUE(straight.ok() && curved.ok());
-  EXPECT_GT(angle_between(answer_of(*straight, scene.sight).axis.axis, answer_of(*curved, scene.sight).axis.axis),
+  EXPECT_GT(angle_between(answer_of(*straight, scene.sight, Tone::kLinear).axis.axis,
+                          answer_of(*curved, scene.sight, Tone::kLinear).axis.axis),
             0.1 * kRadPerDeg);
 }
 

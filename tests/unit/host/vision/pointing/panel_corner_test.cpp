@@ -80,7 +80,7 @@ TEST(PanelCorner, ThePartOfAnEndIsNoPanelsSide) {
       add_disc(middle, farther ? 38.0 : 61.0, image);
       const auto found = measure_panel(image.view(), panel.camera);
       if (!found) continue;
-      const PointingResult answer = answer_of(*found, panel.sight);
+      const PointingResult answer = answer_of(*found, panel.sight, Tone::kLinear);
       ++answered;
       EXPECT_LT(error_deg(answer, panel), 0.5) << down_m << (farther ? " farther" : " nearer");
     }
