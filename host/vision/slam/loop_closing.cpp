@@ -16,7 +16,7 @@ namespace {
 constexpr KeyframeId kMinApart = 10;  // keyframes since the start and since the last loop
 constexpr std::size_t kMaxLoopCandidates = 3;
 constexpr int kMinDescriptorMatches = 20, kMinInliers = 40;
-constexpr std::size_t kMinAligned = 20;                           // of a loop that binds the sides by them alone
+constexpr std::size_t kMinAligned = 20;  // of a loop that binds the sides by them alone, in all its keyframes
 constexpr double kMaxView_rad = 20.0 * std::numbers::pi / 180.0;  // descriptors are known again
 constexpr int kStrong = 100;                                      // shared points of an edge of the essential graph
 
@@ -200,7 +200,9 @@ std::vector<PoseEdge> LoopCloser::essential_edges(const std::map<KeyframeId, Cam
 // pixel. Duplicates are not fused, because observations of one of two fused points count as corners. False where too
 // few are aligned.
 bool LoopCloser::observe_aligned(const Loop& loop) {
-  if (loop.aligned.empty() || loop.aligned.begin()->second.size() < kMinAligned) return false;
+  std::size_t aligned = 0;
+  for (const auto& [id, points] : loop.aligned) aligned += points.size();
+  if (aligned < kMinAligned) return false;
   for (const auto& [id, points] : loop.aligned) {
     const auto at = map_.keyframes.find(id);
     if (at == map_.keyframes.end()) continue;

@@ -83,9 +83,15 @@ bool sample(const Patch& patch, const Matrix2d& to_patch, Template& out) {
   return true;
 }
 
-// J^T r and r^T r of r = I(place) - contrast T - brightness.
-bool compare(const Template& patch, ImageView<const std::uint8_t> image, const Vector2& place, float contrast,
-             float brightness, Eigen::Vector4f& gradient, float& residual_variance) {
+// Position along u and v, contrast, brightness, and the slopes of brightness along u and v, grey values a pixel.
+constexpr int kUnknowns = 6;
+using Vector6f = Eigen::Matrix<float, kUnknowns, 1>;
+using Matrix6f = Eigen::Matrix<float, kUnknowns, kUnknowns>;
+
+// J^T r and r^T r of r = I(start + position) - contrast T - brightness - slope_u x - slope_v y.
+bool compare(const Template& patch, ImageView<const std::uint8_t> image, const Vector2& start, const Vector6f& at,
+             Vector6f& gradient, float& residual_variance) {
+  const Vector2 place = start + at.head<2>().cast<double>();
   const double u = place.x() - kHalf_px, v = place.y() - kHalf_px;
   if (!(u >= 0.0 && v >= 0.0 && u + kSide_px < image.width_px && v + kSide_px < image.height_px)) return false;
   const auto whole_u = static_cast<int>(u), whole_v = static_cast<int>(v);
@@ -100,25 +106,38 @@ bool compare(const Template& patch, ImageView<const std::uint8_t> image, const V
     for (std::size_t x = 0; x < between.size(); ++x) {
       between[x] = static_cast<float>(top[x]) + fv * static_cast<float>(bottom[x] - top[x]);
     }
+    const auto off_v = static_cast<float>(y - kHalf_px);
     for (std::size_t x = 0; x < kSide_px; ++x) {
       const float seen = between[x] + fu * (between[x + 1] - between[x]);
-      const float r = seen - contrast * patch.value[row + x] - brightness;
+      const float off_u = static_cast<float>(x) - kHalf_px;
+      const float r = seen - at[2] * patch.value[row + x] - at[3] - at[4] * off_u - at[5] * off_v;
       gradient[0] += patch.along_u[row + x] * r;
       gradient[1] += patch.along_v[row + x] * r;
       gradient[2] -= patch.value[row + x] * r;
       gradient[3] -= r;
+      gradient[4] -= off_u * r;
+      gradient[5] -= off_v * r;
       residual_variance += r * r;
     }
   }
   return true;
 }
 
-Eigen::Matrix4f squares_of(const Template& patch) {
-  Eigen::Matrix4f H = Eigen::Matrix4f::Zero();
+Matrix6f squares_of(const Template& patch) {
+  constexpr float kCount = kSide_px * kSide_px, kSquares = kCount * kHalf_px * (kHalf_px + 1) / 3.0F;
+  Eigen::Matrix3f texture = Eigen::Matrix3f::Zero(), light_texture = Eigen::Matrix3f::Zero();
   for (std::size_t k = 0; k < patch.value.size(); ++k) {
-    const Eigen::Vector4f J(patch.along_u[k], patch.along_v[k], -patch.value[k], -1.0F);
-    H.noalias() += J * J.transpose();
+    const auto off_u = static_cast<float>(k % kSide_px) - kHalf_px;
+    const auto off_v = static_cast<float>(k / kSide_px) - kHalf_px;
+    const Eigen::Vector3f of_texture(patch.along_u[k], patch.along_v[k], -patch.value[k]),
+        of_light(-1.0F, -off_u, -off_v);
+    texture.noalias() += of_texture * of_texture.transpose();
+    light_texture.noalias() += of_light * of_texture.transpose();
   }
+  // Brightness and its slopes are orthogonal over the square: the sums of x, y and x y are zero.
+  const Eigen::Vector3f light(kCount, kSquares, kSquares);
+  Matrix6f H;
+  H << texture, light_texture.transpose(), light_texture, light.asDiagonal().toDenseMatrix();
   return H;
 }
 
@@ -158,18 +177,18 @@ std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camer
   const double area = to_patch.determinant();
   Template seen;
   if (!(area > kMinArea && area < kMaxArea) || !sample(patch, to_patch, seen)) return std::nullopt;
-  const Eigen::Matrix4f H = squares_of(seen);
+  const Matrix6f H = squares_of(seen);
   const float slopes = 0.5F * (H(0, 0) + H(1, 1) - std::hypot(H(0, 0) - H(1, 1), 2.0F * H(0, 1)));
   if (!(slopes > kMinSlopes)) return std::nullopt;
-  const Eigen::LDLT<Eigen::Matrix4f> solver(H);
+  const Eigen::LDLT<Matrix6f> solver(H);
   const ImageView<const std::uint8_t> image = pyramid[static_cast<std::size_t>(feature.level)].image;
   const Vector2 start = places.on_level(feature.pixel);
-  Eigen::Vector4f off(0.0F, 0.0F, 1.0F, 0.0F), gradient;
+  Vector6f off = Vector6f::Zero(), gradient;
+  off[2] = 1.0F;
   float residual_variance = 0.0F, moved = kMaxMove_px;
   for (int k = 0; k < kSteps && moved > kEnough_px; ++k) {
-    const Vector2 place = start + off.head<2>().cast<double>();
-    if (!compare(seen, image, place, off[2], off[3], gradient, residual_variance)) return std::nullopt;
-    const Eigen::Vector4f move = solver.solve(gradient);
+    if (!compare(seen, image, start, off, gradient, residual_variance)) return std::nullopt;
+    const Vector6f move = solver.solve(gradient);
     off -= move;
     moved = move.head<2>().norm();
     if (!(off.head<2>().norm() < kMaxMove_px)) return std::nullopt;
@@ -178,7 +197,7 @@ std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camer
       residual_variance > kMaxDissimilarity * off[2] * off[2] * seen.variance) {
     return std::nullopt;
   }
-  const auto spare = static_cast<float>(seen.value.size() - 4);
+  const auto spare = static_cast<float>(seen.value.size() - kUnknowns);
   // Along the direction of the smaller gradient.
   const double variance = static_cast<double>(residual_variance / spare / slopes);
   return FoundPatch{feature.pixel + scale * off.head<2>().cast<double>(),

@@ -37,10 +37,11 @@ struct FoundPatch {
   double sigma_px = kPatchSigma_px;  ///< px of its level, including the part from the fit's residuals
 };
 
-/// Position of the patch in the image: its warped pixels are aligned by Gauss-Newton over position, contrast and
-/// brightness (Baker and Matthews 2004), starting at the feature's pixel, on its level. `T_frame_keyframe` need only be
-/// accurate to a degree. Empty where the view is too oblique, the appearance differs, or the position moves by more
-/// than a pixel or two. Some 1.5 us.
+/// Position of the patch in the image: its warped pixels are aligned by Gauss-Newton over position, contrast,
+/// brightness and brightness' slopes along u and v (Baker and Matthews 2004), starting at the feature's pixel, on its
+/// level. The slopes are of light that changes over a turning surface: without them it moves the position.
+/// `T_frame_keyframe` need only be accurate to a degree. Empty where the view is too oblique, the appearance differs,
+/// or the position moves by more than a pixel or two. Some 1.5 us.
 std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
                                      const StereoCamera& camera, const Feature& feature,
                                      const std::vector<PyramidLevel>& pyramid);

@@ -8,6 +8,7 @@
 #include "host/vision/slam/local_map.hpp"
 #include "host/vision/slam/loop_evidence.hpp"
 #include "host/vision/slam/place_gate.hpp"
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::slam {
 namespace {
@@ -83,9 +84,9 @@ bool agrees(const Map& map, const Loop& loop, const Keyframe& next, const Camera
   const Matrix6 covariance =
       covariance_of(found, map, next, camera) + loop.covariance + drift_between(map, next.id, loop.here, camera);
   if (contradicts(place_offset(found.pose.pose, expected), covariance)) return false;
-  // Where the trajectory is known to a few degrees, no other part of the body can be meant.
-  const Matrix6 drift = drift_between(map, next.id, view, camera);
-  if (kDriftSigmas * std::sqrt(drift.topLeftCorner<3, 3>().trace()) < kApart_rad) return true;
+  // Where the trajectory is known to a few degrees about every axis, no other part of the body can be meant.
+  const Matrix3 drift = drift_between(map, next.id, view, camera).topLeftCorner<3, 3>();
+  if (kDriftSigmas * std::sqrt(symmetric_eigen<3>(drift).values[2]) < kApart_rad) return true;
   return place_rate(map, view, found, camera).value() >= kMinFoundRatio * own_rate(map, next, camera).value();
 }
 

@@ -46,6 +46,15 @@ TEST_F(PatchOfAWall, OtherLightIsTheSamePatch) {
   EXPECT_LT(error, 0.05);
 }
 
+TEST_F(PatchOfAWall, LightThatRisesAcrossItDoesNotMoveIt) {
+  Wall later = wall_;
+  later.contrast = 25.0;
+  later.light_slope = {0.8, -0.7};
+  const double error = error_px(later, 0.1, {-0.4, 0.4});
+  EXPECT_GE(error, 0.0);
+  EXPECT_LT(error, 0.05);
+}
+
 TEST_F(PatchOfAWall, WhatIsElsewhereAslantOrUnlikeIsNotFound) {
   EXPECT_LT(error_px(wall_, 0.1, {2.5, 2.5}), 0.0);
   EXPECT_LT(error_px(wall_, 1.25, {0.0, 0.0}), 0.0);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "host/vision/slam/pyramid.hpp"
 #include "simulated_views.hpp"
 
@@ -11,6 +13,7 @@ struct Wall {
   Vector3 normal{0.3, -0.2, -1.0};  // in the target's frame
   double offset_m = 0.0;
   double contrast = 50.0, brightness = 120.0;
+  Vector2 light_slope = Vector2::Zero();  // grey values a pixel, within 40 px of the image's middle
 
   Vector3 hit(const CameraFromTarget& pose, const Vector2& pixel) const {
     const auto T_target_camera = pose.inverse();
@@ -23,7 +26,9 @@ struct Wall {
       for (int u = 0; u < kCamera.width_px; ++u) {
         const Vector3 p = hit(pose, Vector2(u, v));
         const double light = std::sin(60.0 * p.x()) + std::cos(70.0 * p.y() + 20.0 * p.x());
-        image.push_back(static_cast<std::uint8_t>(std::lround(brightness + contrast * light)));
+        const Vector2 off(std::clamp(u - kCamera.cx_px, -40.0, 40.0), std::clamp(v - kCamera.cy_px, -40.0, 40.0));
+        const double grey = brightness + contrast * light + light_slope.dot(off);
+        image.push_back(static_cast<std::uint8_t>(std::lround(grey)));
       }
     }
     return image;
