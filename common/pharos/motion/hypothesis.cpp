@@ -201,7 +201,7 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
   Vector6 offset = Vector6::Zero();  // the prediction's pose minus the one linearised at
   Innovation innovation = innovation_of(fit_.information, prediction.covariance, offset);
   for (int round = 0; round < kFollowed; ++round) {
-    const Vector6 shift = pose_shift(prediction.covariance, fit_.information, innovation);
+    const Vector6 shift = pose_shift(fit_.information, innovation);
     if ((shift + offset).head<3>().norm() < kStraight_rad) break;
     StateEstimate there = prediction;
     there.pose = prediction.pose.moved_by(shift);

@@ -151,7 +151,7 @@ SweepInformation summed(const HitFits& hits, double common_variance) {
 std::size_t worst_of(const HitFits& hits, const SweepInformation& information, const Matrix6& covariance,
                      double& deviations) {
   const Innovation innovation = innovation_of(information, covariance, Vector6::Zero());
-  const Vector6 shift = pose_shift(covariance, information, innovation);
+  const Vector6 shift = pose_shift(information, innovation);
   double weights = 0.0, mean = 0.0;
   for (const HitFit& hit : hits) {
     weights += 1.0 / hit.variance;
