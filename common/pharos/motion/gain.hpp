@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <utility>
-
 #include "pharos/motion/kinematic_state.hpp"
+#include "pharos/motion/unrolled.hpp"
 
 namespace pharos::motion {
 
@@ -20,13 +19,6 @@ inline constexpr int kColumns = blind < kNone ? 5 : 6;
 /// A side P L, or a gain P L C^-T, without the column that is zero.
 template <int blind>
 using Gain = Eigen::Matrix<double, 6, kColumns<blind>>;
-
-/// f(0) to f(n - 1), each with its number as a constant.
-template <int n, class Function>
-inline void for_each_number(const Function& f) {
-  [&f]<int... k>(std::integer_sequence<int, k...>) { (f(std::integral_constant<int, k>{}), ...); }
-  (std::make_integer_sequence<int, n>{});
-}
 
 /// f(k, j): a gain's column k is of the factor's column j.
 template <int blind, class Function>
@@ -52,9 +44,6 @@ auto without_blind_column(const SweepInformation& sweep, const Function& f) {
   if (sweep.factor(3, 3) == 0.0) return f(std::integral_constant<int, 3>{});
   return f(std::integral_constant<int, kNone>{});
 }
-
-/// The last even number up to this one: where packets of two begin.
-constexpr int even(int number) { return number - number % 2; }
 
 template <int blind>
 [[gnu::flatten]] Gain<blind> times_factor(const Matrix6& covariance_with_seen, const SweepInformation& sweep) {

@@ -9,8 +9,14 @@ namespace pharos::motion {
 namespace {
 
 // Covariance of some part of the state with the pose that the second station sees.
-Matrix6 with_seen(const SecondView& view, const Matrix6& with_body, const Matrix6& with_second) {
-  return with_body.lazyProduct(view.by_body.transpose()) + with_second.lazyProduct(view.by_second.transpose());
+[[gnu::flatten]] Matrix6 with_seen(const SecondView& view, const Matrix6& with_body, const Matrix6& with_second) {
+  const Matrix3 turn = view.by_body.topLeftCorner<3, 3>().transpose();
+  const Matrix3 lever = view.by_second.bottomLeftCorner<3, 3>().transpose();
+  Matrix6 with;
+  with.leftCols<3>() = with_body.leftCols<3>().lazyProduct(turn) + with_second.leftCols<3>();
+  with.rightCols<3>() = with_body.rightCols<3>().lazyProduct(turn) +
+                        (with_second.leftCols<3>().lazyProduct(lever) + with_second.rightCols<3>());
+  return with;
 }
 
 // `Ts`, `Tp`: gains of the station's and of the body's pose.
@@ -128,7 +134,7 @@ SecondView::SecondView(const LighthouseFromBody& body, const StationFromStation&
   by_second.bottomLeftCorner<3, 3>() = -skew(q);
 }
 
-Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondStation& second) {
+[[gnu::flatten]] Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondStation& second) {
   const Matrix6 with_pose =
       pp.lazyProduct(view.by_body.transpose()) + second.sp.transpose().lazyProduct(view.by_second.transpose());
   const Matrix6 with_second =
@@ -160,7 +166,7 @@ void MovingState::predict_mean(double dt_s) {
   rate += acceleration * dt_s;
 }
 
-void MovingState::predict(double dt_s, double jerk_rotation, double jerk_translation) {
+[[gnu::flatten]] void MovingState::predict(double dt_s, double jerk_rotation, double jerk_translation) {
   const double t = dt_s, h = 0.5 * t * t;
   // An attitude error rotates with the body.
   const Vector3 turn = rate.head<3>() * t + acceleration.head<3>() * h;
@@ -171,12 +177,12 @@ void MovingState::predict(double dt_s, double jerk_rotation, double jerk_transla
   ap.leftCols<3>() = ap.leftCols<3>().lazyProduct(E.transpose()).eval();
 
   // pose += rate t + acceleration t^2/2, then rate += acceleration t.
-  pp += t * (rp + rp.transpose()) + h * (ap + ap.transpose()) + (t * t) * rr + (t * h) * (ar + ar.transpose()) +
-        (h * h) * aa;
-  rp += t * rr + h * ar.transpose();
+  const Matrix6 pr = rp.transpose(), pa = ap.transpose(), ra = ar.transpose();
+  pp += t * (rp + pr) + h * (ap + pa) + (t * t) * rr + (t * h) * (ar + ra) + (h * h) * aa;
+  rp += t * rr + h * ra;
   ap += t * ar + h * aa;
   rp += t * ap;
-  rr += t * (ar + ar.transpose()) + (t * t) * aa;
+  rr += t * (ar + ra) + (t * t) * aa;
   ar += t * aa;
 
   const double q[6] = {t * h * h / 5.0, h * h / 2.0, h * t / 3.0, t * t * t / 3.0, h, t};
@@ -186,10 +192,12 @@ void MovingState::predict(double dt_s, double jerk_rotation, double jerk_transla
   add_diagonal(rr, jerk_rotation * q[3], jerk_translation * q[3]);
   add_diagonal(ar, jerk_rotation * q[4], jerk_translation * q[4]);
   add_diagonal(aa, jerk_rotation * q[5], jerk_translation * q[5]);
-  predict_mean(t);
+  pose.R = E * pose.R;
+  pose.t += rate.tail<3>() * t + acceleration.tail<3>() * h;
+  rate += acceleration * t;
 }
 
-void MovingState::predict_second(double dt_s) {
+[[gnu::flatten]] void MovingState::predict_second(double dt_s) {
   const Matrix3 E = rotation_exp(rate.head<3>() * dt_s + acceleration.head<3>() * (0.5 * dt_s * dt_s));
   second.sp.leftCols<3>() = second.sp.leftCols<3>().lazyProduct(E.transpose()).eval();
   second.sp += dt_s * second.sr + (0.5 * dt_s * dt_s) * second.sa;
