@@ -27,8 +27,15 @@ Coefficients coefficients(double square) {
 
 Matrix3 rotation_exp(const Vector3& phi_rad) {
   const Coefficients c = coefficients(phi_rad.squaredNorm());
-  const Matrix3 cross = skew(phi_rad);
-  return Matrix3::Identity() + c.sin_over_angle * cross + c.one_minus_cos_over_square * cross * cross;
+  const double x = phi_rad.x(), y = phi_rad.y(), z = phi_rad.z();
+  const double sx = c.sin_over_angle * x, sy = c.sin_over_angle * y, sz = c.sin_over_angle * z;
+  const double cx = c.one_minus_cos_over_square * x, cy = c.one_minus_cos_over_square * y,
+               cz = c.one_minus_cos_over_square * z;
+  Matrix3 R;
+  R << 1.0 - (cz * z + cy * y), cy * x - sz, sy + cz * x,  //
+      sz + cx * y, 1.0 - (cz * z + cx * x), cz * y - sx,   //
+      cx * z - sy, sx + cy * z, 1.0 - (cy * y + cx * x);
+  return R;
 }
 
 Vector3 rotation_log(const Matrix3& R) {

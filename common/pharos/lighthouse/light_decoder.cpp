@@ -58,16 +58,12 @@ void LightDecoder::count_discarded(const TimeBase::Discarded& discarded) {
   counters_.edges_off_time += discarded.off_time_edges;
 }
 
-std::optional<Sweep> LightDecoder::take_sweep() {
-  if (!collector_.has_finished()) return std::nullopt;
+std::optional<Sweep> LightDecoder::taken_sweep() {
   std::optional<Sweep> sweep(collector_.finished());
   collector_.drop_finished();
   return sweep;
 }
 
-std::optional<OotxPayload> LightDecoder::take_ootx() {
-  if (payloads_.empty()) return std::nullopt;
-  return payloads_.pop();
-}
+std::optional<OotxPayload> LightDecoder::taken_ootx() { return payloads_.pop(); }
 
 }  // namespace pharos::lighthouse

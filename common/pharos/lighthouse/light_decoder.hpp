@@ -33,9 +33,9 @@ class LightDecoder {
   void drop_sweep() { collector_.drop_finished(); }
   const OotxPayload* next_ootx() const { return payloads_.empty() ? nullptr : &payloads_.front(); }
   void drop_ootx() { payloads_.drop(); }
-  /// The same for a caller that wants copies.
-  std::optional<Sweep> take_sweep();
-  std::optional<OotxPayload> take_ootx();
+  /// The same for a caller that wants copies. Asked after every pulse: that there is none is told without a call.
+  std::optional<Sweep> take_sweep() { return collector_.has_finished() ? taken_sweep() : std::nullopt; }
+  std::optional<OotxPayload> take_ootx() { return payloads_.empty() ? std::nullopt : taken_ootx(); }
   const DecoderCounters& counters() const { return counters_; }
   LockState lock() const { return tracker_.lock(time_base_.newest_ticks()); }
   std::int64_t time_offset_ticks() const { return time_base_.offset_ticks(); }
@@ -73,6 +73,9 @@ class LightDecoder {
   TimeBase time_base_;
 
  private:
+  std::optional<Sweep> taken_sweep();
+  std::optional<OotxPayload> taken_ootx();
+
   static constexpr std::size_t kHeldPayloads = 2;
   static constexpr std::int64_t kNever = INT64_MIN / 2;
   static constexpr std::array<std::int64_t, kMaxSensors> filled_with_never() {

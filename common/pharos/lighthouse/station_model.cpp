@@ -54,7 +54,10 @@ Vector3 direction_of(const ThetaPair& ideal) {
 }
 
 double raw_theta(const StationCalibration& station, ModelForm form, Axis axis, const Vector3& p_lighthouse) {
-  const ThetaPair ideal = ideal_thetas(p_lighthouse);
+  return raw_theta(station, form, axis, ideal_thetas(p_lighthouse));
+}
+
+double raw_theta(const StationCalibration& station, ModelForm form, Axis axis, const ThetaPair& ideal) {
   const Axis other = axis == Axis::kX ? Axis::kY : Axis::kX;
   return raw_from_ideal(station[axis], form, axis, ideal[axis], ideal[other]);
 }

@@ -36,6 +36,8 @@ Vector3 direction_of(const ThetaPair& ideal);
 
 /// Raw theta of `axis` of a station for a point ahead of it (z > 0, frame L; its length does not matter).
 double raw_theta(const StationCalibration& station, ModelForm form, Axis axis, const Vector3& p_lighthouse);
+/// The same from the direction's ideal bearings.
+double raw_theta(const StationCalibration& station, ModelForm form, Axis axis, const ThetaPair& ideal);
 
 /// Ideal bearings from both raw ones, to 1e-9 rad. Empty where no direction ahead of the station has them (impossible
 /// angles or an implausible calibration). About 5 evaluations of the model an axis.

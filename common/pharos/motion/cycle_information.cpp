@@ -2,6 +2,7 @@
 #include "pharos/motion/cycle_information.hpp"
 
 #include "pharos/geometry/packed_symmetric.hpp"
+#include "pharos/motion/unrolled.hpp"
 #include "pharos/pose/covariance.hpp"
 
 namespace pharos::motion {
@@ -9,6 +10,14 @@ namespace {
 
 // A station of two pauses for a rotor revolution between its cycles.
 constexpr std::int64_t kOldest_ticks = 3 * 833'333 / 2;
+
+// sum += h h^T, its lower triangle.
+void add_square(Matrix6& sum, const Vector6& h) {
+  for_each_number<6>([&](auto number) {
+    constexpr int j = number, rows = 6 - even(j);
+    sum.col(j).tail<rows>() += h.tail<rows>() * h[j];
+  });
+}
 
 PackedSymmetric<6> packed_sum(const Matrix6& a, const Matrix6& b) {
   PackedSymmetric<6> packed;
@@ -20,8 +29,9 @@ PackedSymmetric<6> packed_sum(const Matrix6& a, const Matrix6& b) {
 
 }  // namespace
 
-CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& hits, double own_variance,
-                                                     std::int64_t time_ticks, bool with_rotors) {
+[[gnu::flatten]] CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& hits,
+                                                                      double own_variance, std::int64_t time_ticks,
+                                                                      bool with_rotors) {
   const auto a = static_cast<std::size_t>(index_of(axis));
   Sweep& now = sweep_[a];
   const Sweep& before = sweep_[1 - a];
@@ -33,7 +43,7 @@ CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& h
   for (const HitFit& hit : hits) {
     const double weight = own_variance / hit.variance;
     const Vector6 h = weight * hit.jacobian;
-    now.square += hit.jacobian.lazyProduct(hit.jacobian.transpose());
+    add_square(now.square, hit.jacobian);
     now.sum += hit.jacobian;
     if (with_rotors) now.by_rotor += hit.jacobian.lazyProduct(rotor_terms(axis, hit.point_m).transpose());
     now.centred += h.lazyProduct(hit.jacobian.transpose());
@@ -43,6 +53,7 @@ CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& h
     residual += weight * hit.residual_rad;
     weighted += h;
   }
+  now.square.triangularView<Eigen::StrictlyUpper>() = now.square.transpose();
   now.centred -= (1.0 / weights) * weighted.lazyProduct(weighted.transpose());
   now.by_residual -= (residual / weights) * weighted;
   now.residual_square -= residual * residual / weights;
@@ -81,10 +92,22 @@ void CycleInformation::shifted(Axis axis, const Vector6& shift) {
   sweep.by_residual -= moved;
 }
 
-Matrix6 CycleInformation::covariance_of(double own, double common) const {
+// What the errors make of the right side of the normal equations, times their inverse.
+inline Matrix6 CycleInformation::unit_errors(double own, double common) const {
   Matrix6 middle = own * (sweep_[0].square + sweep_[1].square);
   for (const Sweep& sweep : sweep_) middle += common * sweep.sum.lazyProduct(sweep.sum.transpose());
-  return unit_.lazyProduct(Matrix6(middle.lazyProduct(unit_)));
+  return middle.lazyProduct(unit_);
+}
+
+[[gnu::flatten]] Matrix6 CycleInformation::covariance_of(double own, double common) const {
+  return unit_.lazyProduct(unit_errors(own, common));
+}
+
+[[gnu::flatten]] Vector6 CycleInformation::variances_of(double own, double common) const {
+  const Matrix6 errors = unit_errors(own, common);
+  Vector6 variances = unit_.col(0).cwiseProduct(errors.row(0).transpose());
+  for (int k = 1; k < 6; ++k) variances += unit_.col(k).cwiseProduct(errors.row(k).transpose());
+  return variances;
 }
 
 std::optional<Matrix6> CycleInformation::covariance_of(const RotorSpread& spread) const {

@@ -34,10 +34,13 @@ class CycleInformation {
   /// independent for each hit, and one with variance `common`, equal for all hits of a sweep. The last one known, zero
   /// before.
   Matrix6 covariance_of(double own, double common) const;
+  /// Its diagonal alone.
+  Vector6 variances_of(double own, double common) const;
   /// The same for rotors that are off by such errors, if set() was told to look at them; empty before it was known.
   std::optional<Matrix6> covariance_of(const RotorSpread& spread) const;
 
  private:
+  Matrix6 unit_errors(double own, double common) const;
   struct Sweep {
     Matrix6 square = Matrix6::Zero();  // sum of h h^T
     Vector6 sum = Vector6::Zero();     // sum of h

@@ -25,6 +25,8 @@ void predict(ImmFilter& filter, double dt_s) {
 
 // Chi-squared of a sweep (five degrees of freedom) beyond every model's gate: one in ten million.
 constexpr double kRateResetChi2 = 40.0;
+// Rounding does not lift chi-squared from this part of a limit beyond it.
+constexpr double kFarBelow = 0.9;
 // Of a sweep beyond what the filter's present models hold possible, by far: a quiet body was pushed, or the sweep is
 // wrong. It is withheld; the next one of either rotor tells.
 constexpr double kSurpriseChi2 = 200.0;
@@ -43,15 +45,11 @@ constexpr int kSettles = 4;
 // Squared distance (6 degrees of freedom) up to which an alternative is the best hypothesis itself.
 constexpr double kSamePose = 1.0;
 
-bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction) {
+// `chi2`: of the sweep by the prediction's own covariance. The gate's holds that one, and makes no sweep less probable.
+bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction, double chi2) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
+  if (chi2 < kFarBelow * kRateResetChi2) return false;
   return innovation_of(fit.information, prediction.gate_covariance, Vector6::Zero()).chi2 > kRateResetChi2;
-}
-
-// Chi-squared of a sweep that can be judged, else zero.
-double chi2_of(const SweepFit& fit, const StateEstimate& prediction) {
-  if (fit.sensors < kMinSensorsToJudge || fit.used.empty()) return 0.0;
-  return innovation_of(fit.information, prediction.covariance, Vector6::Zero()).chi2;
 }
 
 bool is_surprise(const SweepFit& fit, double chi2) {
@@ -62,8 +60,10 @@ bool is_surprise(const SweepFit& fit, double chi2) {
 
 std::int64_t last_hit_ticks(const lighthouse::SweepBearings& bearings, const Target& target) {
   std::int64_t last = INT64_MIN;
-  for (const lighthouse::Bearing& bearing : bearings) {
-    if (find_sensor(target, bearing.sensor) != nullptr) last = std::max(last, bearing.time_ticks);
+  for (std::size_t i = bearings.size(); i-- > 0;) {  // the last one is often it
+    if (bearings[i].time_ticks > last && find_sensor(target, bearings[i].sensor) != nullptr) {
+      last = bearings[i].time_ticks;
+    }
   }
   return last;
 }
@@ -116,8 +116,10 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
                        noise.sigma_rad * std::sqrt(noise.rho)};
   StateEstimate prediction = with_systematics(filter_, observer);
   fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
-  const bool contradicts = fit_.sensors >= kMinSensorsToJudge && exceeds_rate_reset_gate(fit_, prediction);
-  const double chi2 = chi2_of(fit_, prediction);
+  Innovation innovation = innovation_of(fit_.information, prediction.covariance, Vector6::Zero());
+  const bool judged = fit_.sensors >= kMinSensorsToJudge;
+  const bool contradicts = judged && exceeds_rate_reset_gate(fit_, prediction, innovation.chi2);
+  const double chi2 = judged && !fit_.used.empty() ? innovation.chi2 : 0.0;
   const bool surprises = contradicts || is_surprise(fit_, chi2);
   Leaps& leaps_of_rotor = station_state.leaps[axis_index];
   bool& rotor_contradicted = station_state.contradicted[axis_index];
@@ -137,8 +139,9 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     filter_.reset_rates(since_s);
     prediction = with_systematics(filter_, observer);
     fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
+    innovation = innovation_of(fit_.information, prediction.covariance, Vector6::Zero());
   }
-  follow(bearings, axis, view, prediction, now);
+  follow(bearings, axis, view, prediction, now, innovation);
   withheld_ = withheld_ || hits_disagree(fit_);
   diverged_ = diverged_ || withheld_;
   const int used = static_cast<int>(fit_.used.size());
@@ -164,13 +167,14 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     const CycleInformation::ResidualChi2 residual_chi2 =
         station_state.view.set(axis, fit_.used, station_state.level * own_variance, time, view.calibration == nullptr);
     cost_ += filter_.correct(fit_.information, fit_.pose, observer);
-    const LighthouseFromBody corrected = filter_.state_estimate(observer).pose;
-    station_state.view.shifted(axis, pose_difference(corrected, fit_.pose));
+    state_estimate_ = filter_.state_estimate(observer);
+    station_state.view.shifted(axis, pose_difference(state_estimate_.pose, fit_.pose));
     station_state.seen_ticks = last_used_ticks_ = time;
     learn_noise(station_state, residual_chi2);
-    station_state.systematic = systematic_covariance(station_state, corrected.t.norm(), noise);
+    station_state.systematic = systematic_covariance(station_state, state_estimate_.pose.t.norm(), noise);
   }
-  state_estimate_ = with_systematics(filter_, observer);
+  if (diverged_ || used == 0) state_estimate_ = filter_.state_estimate(observer);
+  add_systematics(state_estimate_, observer);
   judge_tilt(view.calibration != nullptr);
   see_tilt();
   return fit_;
@@ -194,14 +198,22 @@ void Hypothesis::dispute(const Objections& objections) {
 
 void Hypothesis::confirm_anew() { undisputed_ = -kSettles; }
 
+// Covariance of the attitude after the sweep, as far as it can be corrected: systematic errors do not shrink. No sweep
+// makes it larger; where it is small before, it is not calculated.
+Matrix3 Hypothesis::attitude_after(const Matrix6& known, const Vector6& offset) const {
+  const Matrix3 before = known.topLeftCorner<3, 3>();
+  if (before.trace() <= kLinear_rad * kLinear_rad) return before;
+  const Innovation innovation = innovation_of(fit_.information, known, offset);
+  return corrected_covariance(known, fit_.information, innovation).topLeftCorner<3, 3>();
+}
+
 // Innovation of a sweep. One that rotates the estimate far is linearised again at the corrected pose (iterated extended
 // Kalman filter): at a tenth of a radian a bearing's second-order part is many times its noise.
 void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                        const StateEstimate& prediction, const SweepNoise& now) {
+                        const StateEstimate& prediction, const SweepNoise& now, Innovation innovation) {
   Vector6 offset = Vector6::Zero();  // the prediction's pose minus the one linearised at
-  Innovation innovation = innovation_of(fit_.information, prediction.covariance, offset);
   for (int round = 0; round < kFollowed; ++round) {
-    const Vector6 shift = pose_shift(prediction.covariance, fit_.information, innovation);
+    const Vector6 shift = pose_shift(fit_.information, innovation);
     if ((shift + offset).head<3>().norm() < kStraight_rad) break;
     StateEstimate there = prediction;
     there.pose = prediction.pose.moved_by(shift);
@@ -216,13 +228,13 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
   predicted_offset_ = offset;
   coplanar_ = false;
   if (!fit_.used.empty() && filter_.steady()) {
-    const Matrix6 known = prediction.covariance - systematic_of(observer_);  // systematic errors do not shrink
-    const Innovation of_known = innovation_of(fit_.information, known, offset);
-    const Matrix3 attitude = corrected_covariance(known, fit_.information, of_known).topLeftCorner<3, 3>();
+    const Matrix3 attitude = attitude_after(prediction.covariance - systematic_of(observer_), offset);
     if (attitude.trace() > kLinear_rad * kLinear_rad) {
       coplanar_ = plane_.holds_all;
-      if (coplanar_) count_second_order(fit_, plane_, attitude, now);
-      innovation = innovation_of(fit_.information, prediction.covariance, offset);
+      if (coplanar_) {
+        count_second_order(fit_, plane_, attitude, now);
+        innovation = innovation_of(fit_.information, prediction.covariance, offset);
+      }
     }
   }
   nis_ = innovation.chi2;

@@ -159,11 +159,17 @@ class Hypothesis {
   void see_tilt();
   void dispute(const Objections& objections);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-              const StateEstimate& prediction, const SweepNoise& now);
+              const StateEstimate& prediction, const SweepNoise& now, Innovation innovation);
+  Matrix3 attitude_after(const Matrix6& known, const Vector6& offset) const;
   void learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const;
   void inflate_relative_covariance(double dt_s);
   Matrix6 systematic_of(Observer observer) const;
-  StateEstimate with_systematics(const ImmFilter& filter, Observer observer) const;
+  StateEstimate with_systematics(const ImmFilter& filter, Observer observer) const {
+    StateEstimate state_estimate = filter.state_estimate(observer);
+    add_systematics(state_estimate, observer);
+    return state_estimate;
+  }
+  void add_systematics(StateEstimate& state_estimate, Observer observer) const;
 
   ImmFilter filter_;
   StateEstimate state_estimate_;

@@ -92,12 +92,10 @@ Matrix6 Hypothesis::systematic_of(Observer observer) const {
 
 // What exceeds the assumed noise is attributed to wrong sensor positions and rotor parameters. It is the same in every
 // sweep of a view, so averaging does not remove it: it is added to the covariance from the sweeps.
-StateEstimate Hypothesis::with_systematics(const ImmFilter& filter, Observer observer) const {
-  StateEstimate state_estimate = filter.state_estimate(observer);
+void Hypothesis::add_systematics(StateEstimate& state_estimate, Observer observer) const {
   const Matrix6 systematic = systematic_of(observer);
   state_estimate.covariance += systematic;
   state_estimate.gate_covariance += systematic;
-  return state_estimate;
 }
 
 bool Hypothesis::noise_implausible() const { return station_state(observer_).level >= kMaxLevel; }

@@ -103,50 +103,64 @@ const SecondStation& ImmFilter::second() const {
   return top == 0 ? resting_.second : moving_[top - 1].second;
 }
 
-ImmFilter::Seen ImmFilter::seen(std::size_t i, Observer observer) const {
-  const LighthouseFromBody& pose = i == 0 ? resting_.pose : moving_[i - 1].pose;
-  const Matrix6& covariance = i == 0 ? resting_.covariance : moving_[i - 1].pp;
-  if (observer == Observer::kReference) return {pose, covariance};
+ImmFilter::Views ImmFilter::own_views() const {
+  Views views;
+  for (std::size_t i = 0; i < kModels; ++i) {
+    views.pose[i] = i == 0 ? &resting_.pose : &moving_[i - 1].pose;
+    views.covariance[i] = i == 0 ? &resting_.covariance : &moving_[i - 1].pp;
+  }
+  return views;
+}
+
+ImmFilter::Seen ImmFilter::seen_by_second(std::size_t i) const {
   const SecondStation& second = i == 0 ? resting_.second : moving_[i - 1].second;
-  const SecondView view(pose, second.pose);
-  return {view.pose, seen_covariance(view, covariance, second)};
+  const SecondView view(i == 0 ? resting_.pose : moving_[i - 1].pose, second.pose);
+  return {view.pose, seen_covariance(view, i == 0 ? resting_.covariance : moving_[i - 1].pp, second)};
 }
 
 StateEstimate ImmFilter::state_estimate(Observer observer) const {
+  Views views = own_views();
+  const double min_counted = steady() ? kMinCounted : kMinProbability;
+  if (observer == Observer::kReference) return moments(views, min_counted);
+  std::array<Seen, kModels> seen;
+  for (std::size_t i = 0; i < kModels; ++i) {
+    // The one of highest process noise is always included: gates need it.
+    if (probability_[i] < min_counted && i != kMoving) continue;
+    seen[i] = seen_by_second(i);
+    views.pose[i] = &seen[i].pose;
+    views.covariance[i] = &seen[i].covariance;
+  }
+  StateEstimate b = moments(views, min_counted);
+  const Matrix3& turn = second().pose.R;
+  b.rate.head<3>() = turn * b.rate.head<3>().eval();
+  b.rate.tail<3>() = turn * b.rate.tail<3>().eval();
+  return b;
+}
+
+// Of the mixture of the models that are no less probable than `min_counted`.
+[[gnu::flatten]] StateEstimate ImmFilter::moments(const Views& of, double min_counted) const {
   StateEstimate b;
   const std::size_t top = most_probable();
-  std::array<Seen, kModels> of;
   Vector6 mean = Vector6::Zero();
   std::array<Vector6, kModels> away;
-  const double min_counted = steady() ? kMinCounted : kMinProbability;
-  // The one of highest process noise is always included: gates need it.
-  for (std::size_t i = 0; i < kModels; ++i) {
-    if (probability_[i] >= min_counted || i == kMoving) of[i] = seen(i, observer);
-  }
   for (std::size_t i = 0; i < kModels; ++i) {
     if (probability_[i] < min_counted) continue;
-    away[i] = i == top ? Vector6(Vector6::Zero()) : small_difference(of[i].pose, of[top].pose);
+    away[i] = i == top ? Vector6(Vector6::Zero()) : small_difference(*of.pose[i], *of.pose[top]);
     mean += probability_[i] * away[i];
     if (i > 0) b.rate += probability_[i] * moving_[i - 1].rate;
   }
-  b.pose = of[top].pose.moved_by(mean);
+  b.pose = of.pose[top]->moved_by(mean);
   for (std::size_t i = 0; i < kModels; ++i) {
     if (probability_[i] < min_counted) continue;
     const Vector6 e = away[i] - mean;
-    b.covariance += probability_[i] * (of[i].covariance + e.lazyProduct(e.transpose()));
+    b.covariance += probability_[i] * (*of.covariance[i] + e.lazyProduct(e.transpose()));
     Vector6 variance = b.rate.cwiseAbs2();
     if (i > 0) variance = (moving_[i - 1].rate - b.rate).cwiseAbs2() + moving_[i - 1].rr.diagonal();
     b.rotation_rate_variance += probability_[i] * variance.head<3>().sum() / 3.0;
     b.velocity_variance += probability_[i] * variance.tail<3>().sum() / 3.0;
   }
-  const Seen& highest_noise = of[kMoving];
-  const Vector6 apart = small_difference(highest_noise.pose, b.pose);
-  b.gate_covariance = b.covariance + highest_noise.covariance + apart.lazyProduct(apart.transpose());
-  if (observer == Observer::kSecond) {
-    const Matrix3& turn = second().pose.R;
-    b.rate.head<3>() = turn * b.rate.head<3>().eval();
-    b.rate.tail<3>() = turn * b.rate.tail<3>().eval();
-  }
+  const Vector6 apart = small_difference(*of.pose[kMoving], b.pose);
+  b.gate_covariance = b.covariance + *of.covariance[kMoving] + apart.lazyProduct(apart.transpose());
   return b;
 }
 
@@ -163,9 +177,14 @@ void ImmFilter::correct_one(State& state, const SweepInformation& sweep, const I
 double ImmFilter::correct(const SweepInformation& sweep, const LighthouseFromBody& pose, Observer observer) {
   std::array<Innovation, kModels> innovation;
   double minimum = 1e300;
+  const Views own = own_views();
   for (std::size_t i = 0; i < kModels; ++i) {
-    const Seen own = seen(i, observer);
-    innovation[i] = innovation_of(sweep, own.covariance, small_difference(own.pose, pose));
+    if (observer == Observer::kReference) {
+      innovation[i] = innovation_of(sweep, *own.covariance[i], small_difference(*own.pose[i], pose));
+    } else {
+      const Seen seen = seen_by_second(i);
+      innovation[i] = innovation_of(sweep, seen.covariance, small_difference(seen.pose, pose));
+    }
     minimum = std::min(minimum, innovation[i].chi2 + innovation[i].log_det);
   }
   double sum = 0.0;

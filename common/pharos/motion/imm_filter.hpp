@@ -63,11 +63,18 @@ class ImmFilter {
  private:
   static constexpr double kShaken = 0.3;
   using Flow = std::array<std::array<double, kModels>, kModels>;
+  // The models' poses, as they are or as the second station sees them.
   struct Seen {
     LighthouseFromBody pose;
     Matrix6 covariance;
   };
-  Seen seen(std::size_t model, Observer observer) const;
+  struct Views {
+    std::array<const LighthouseFromBody*, kModels> pose;
+    std::array<const Matrix6*, kModels> covariance;
+  };
+  Views own_views() const;
+  Seen seen_by_second(std::size_t model) const;
+  StateEstimate moments(const Views& views, double min_counted) const;
   std::size_t most_probable() const;
   template <class State>
   void correct_one(State& state, const SweepInformation& sweep, const Innovation& innovation, Observer observer);

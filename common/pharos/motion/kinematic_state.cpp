@@ -3,31 +3,56 @@
 
 #include <cmath>
 
+#include "pharos/motion/gain.hpp"
+
 namespace pharos::motion {
 namespace {
 
-// side C^-T for side = (covariance with the observed pose) L: the factor of the whitened innovation.
-Matrix6 gain_side(const Matrix6& covariance_with_seen, const SweepInformation& sweep, const Innovation& innovation) {
-  Matrix6 T = covariance_with_seen.lazyProduct(sweep.factor);
-  for (int j = 0; j < 6; ++j) {
-    for (int k = 0; k < j; ++k) T.col(j) -= innovation.factor(j, k) * T.col(k);
-    T.col(j) *= 1.0 / innovation.factor(j, j);
-  }
-  return T;
-}
-
-void subtract_product(Matrix6& from, const Matrix6& a, const Matrix6& b) { from -= a.lazyProduct(b.transpose()); }
-
 // Covariance of some part of the state with the pose that the second station sees.
-Matrix6 with_seen(const SecondView& view, const Matrix6& with_body, const Matrix6& with_second) {
-  return with_body.lazyProduct(view.by_body.transpose()) + with_second.lazyProduct(view.by_second.transpose());
+[[gnu::flatten]] Matrix6 with_seen(const SecondView& view, const Matrix6& with_body, const Matrix6& with_second) {
+  const Matrix3 turn = view.by_body.topLeftCorner<3, 3>().transpose();
+  const Matrix3 lever = view.by_second.bottomLeftCorner<3, 3>().transpose();
+  Matrix6 with;
+  with.leftCols<3>() = with_body.leftCols<3>().lazyProduct(turn) + with_second.leftCols<3>();
+  with.rightCols<3>() = with_body.rightCols<3>().lazyProduct(turn) +
+                        (with_second.leftCols<3>().lazyProduct(lever) + with_second.rightCols<3>());
+  return with;
 }
 
 // `Ts`, `Tp`: gains of the station's and of the body's pose.
-void correct_station(SecondStation& second, const Matrix6& Ts, const Matrix6& Tp, const Innovation& innovation) {
-  subtract_product(second.ss, Ts, Ts);
+template <int blind>
+void correct_station(SecondStation& second, const Gain<blind>& Ts, const Gain<blind>& Tp,
+                     const Innovation& innovation) {
+  subtract_square(second.ss, Ts);
   subtract_product(second.sp, Ts, Tp);
-  second.pose = second.pose.moved_by(Ts * innovation.whitened);
+  second.pose = second.pose.moved_by(shift_of<blind>(Ts, innovation));
+}
+
+// Gains of pose, rate and acceleration.
+template <int blind>
+struct Gains {
+  Gain<blind> p, r, a;
+};
+
+template <int blind>
+void correct_motion(MovingState& state, const Gains<blind>& gain, const Innovation& innovation) {
+  subtract_square(state.pp, gain.p);
+  subtract_product(state.rp, gain.r, gain.p);
+  subtract_square(state.rr, gain.r);
+  subtract_product(state.ap, gain.a, gain.p);
+  subtract_product(state.ar, gain.a, gain.r);
+  subtract_square(state.aa, gain.a);
+  state.pose = state.pose.moved_by(shift_of<blind>(gain.p, innovation));
+  state.rate += shift_of<blind>(gain.r, innovation);
+  state.acceleration += shift_of<blind>(gain.a, innovation);
+}
+
+template <int blind>
+void correct_station(SecondStation& second, const Gain<blind>& Ts, const Gains<blind>& gain,
+                     const Innovation& innovation) {
+  subtract_product(second.sr, Ts, gain.r);
+  subtract_product(second.sa, Ts, gain.a);
+  correct_station<blind>(second, Ts, gain.p, innovation);
 }
 
 Matrix6 transformed(const Matrix6& by, const Matrix6& covariance) {
@@ -41,45 +66,63 @@ void add_diagonal(Matrix6& matrix, double rotation, double translation) {
   }
 }
 
-}  // namespace
-
-Innovation innovation_of(const SweepInformation& sweep, const Matrix6& pose_covariance, const Vector6& offset) {
+template <int blind>
+[[gnu::flatten]] Innovation innovation_without(const SweepInformation& sweep, const Matrix6& pose_covariance,
+                                               const Vector6& offset) {
   Innovation out;
   const Vector6 innovation = sweep.whitened - sweep.factor.transpose() * offset;
-  const Matrix6 side = pose_covariance.lazyProduct(sweep.factor);
-  const Matrix6 S = sweep.factor.transpose().lazyProduct(side);
+  const Gain<blind> side = times_factor<blind>(pose_covariance, sweep);
+  out.side.leftCols<kColumns<blind>>() = side;
   double det = 1.0;
-  for (int j = 0; j < 6; ++j) {
-    double pivot = 1.0 + S(j, j);
+  for_each_column<blind>([&](auto place, auto column) {
+    constexpr int k = place, j = column;
+    // Of L^T P L.
+    const auto element = [&](auto row) {
+      constexpr int i = row, rows = 6 - even(i);
+      return sweep.factor.col(i).template tail<rows>().dot(side.col(k).template tail<rows>());
+    };
+    double pivot = 1.0 + element(column);
     double value = innovation[j];
-    for (int k = 0; k < j; ++k) {
-      pivot -= out.factor(j, k) * out.factor(j, k);
-      value -= out.factor(j, k) * out.whitened[k];
-    }
+    for_each_before<blind, j>([&](int before) {
+      pivot -= out.factor(j, before) * out.factor(j, before);
+      value -= out.factor(j, before) * out.whitened[before];
+    });
     // I + (positive semidefinite): no pivot can be below one.
     const double root = std::sqrt(pivot > 1.0 ? pivot : 1.0);
     const double inverse = 1.0 / root;
     det *= root;
-    out.factor(j, j) = root;
+    out.inverse_root[j] = inverse;
     out.whitened[j] = value * inverse;
-    for (int i = j + 1; i < 6; ++i) {
-      double sum = S(i, j);
-      for (int k = 0; k < j; ++k) sum -= out.factor(i, k) * out.factor(j, k);
-      out.factor(i, j) = sum * inverse;
-    }
-  }
+    for_each_column<blind>([&](auto, auto row) {
+      constexpr int i = row;
+      if constexpr (i > j) {
+        double sum = element(row);
+        for_each_before<blind, j>([&](int before) { sum -= out.factor(i, before) * out.factor(j, before); });
+        out.factor(i, j) = sum * inverse;
+      }
+    });
+  });
   out.chi2 = out.whitened.squaredNorm();
   out.log_det = 2.0 * std::log(det);
   return out;
 }
 
-Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation) {
-  return gain_side(covariance, sweep, innovation) * innovation.whitened;
+}  // namespace
+
+Innovation innovation_of(const SweepInformation& sweep, const Matrix6& pose_covariance, const Vector6& offset) {
+  return without_blind_column(sweep,
+                              [&](auto blind) { return innovation_without<blind>(sweep, pose_covariance, offset); });
+}
+
+Vector6 pose_shift(const SweepInformation& sweep, const Innovation& innovation) {
+  return without_blind_column(sweep,
+                              [&](auto blind) { return shift_of<blind>(gain_of<blind>(innovation), innovation); });
 }
 
 Matrix6 corrected_covariance(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation) {
-  const Matrix6 T = gain_side(covariance, sweep, innovation);
-  return covariance - T.lazyProduct(T.transpose());
+  Matrix6 corrected = covariance;
+  without_blind_column(sweep, [&](auto blind) { subtract_square(corrected, gain_of<blind>(innovation)); });
+  return corrected;
 }
 
 SecondView::SecondView(const LighthouseFromBody& body, const StationFromStation& second) : pose(second * body) {
@@ -91,7 +134,7 @@ SecondView::SecondView(const LighthouseFromBody& body, const StationFromStation&
   by_second.bottomLeftCorner<3, 3>() = -skew(q);
 }
 
-Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondStation& second) {
+[[gnu::flatten]] Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondStation& second) {
   const Matrix6 with_pose =
       pp.lazyProduct(view.by_body.transpose()) + second.sp.transpose().lazyProduct(view.by_second.transpose());
   const Matrix6 with_second =
@@ -100,17 +143,22 @@ Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondS
 }
 
 void RestingState::correct(const SweepInformation& sweep, const Innovation& innovation, bool linked) {
-  const Matrix6 T = gain_side(covariance, sweep, innovation);
-  if (linked) correct_station(second, gain_side(second.sp, sweep, innovation), T, innovation);
-  subtract_product(covariance, T, T);
-  pose = pose.moved_by(T * innovation.whitened);
+  without_blind_column(sweep, [&](auto blind) {
+    const Gain<blind> T = gain_of<blind>(innovation);
+    if (linked) correct_station<blind>(second, gain_of<blind>(second.sp, sweep, innovation), T, innovation);
+    subtract_square(covariance, T);
+    pose = pose.moved_by(shift_of<blind>(T, innovation));
+  });
 }
 
 void RestingState::correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view) {
-  const Matrix6 T = gain_side(with_seen(view, covariance, second.sp.transpose()), sweep, innovation);
-  correct_station(second, gain_side(with_seen(view, second.sp, second.ss), sweep, innovation), T, innovation);
-  subtract_product(covariance, T, T);
-  pose = pose.moved_by(T * innovation.whitened);
+  without_blind_column(sweep, [&](auto blind) {
+    const Gain<blind> T = gain_of<blind>(with_seen(view, covariance, second.sp.transpose()), sweep, innovation);
+    const Gain<blind> Ts = gain_of<blind>(with_seen(view, second.sp, second.ss), sweep, innovation);
+    correct_station<blind>(second, Ts, T, innovation);
+    subtract_square(covariance, T);
+    pose = pose.moved_by(shift_of<blind>(T, innovation));
+  });
 }
 
 void MovingState::predict_mean(double dt_s) {
@@ -118,7 +166,7 @@ void MovingState::predict_mean(double dt_s) {
   rate += acceleration * dt_s;
 }
 
-void MovingState::predict(double dt_s, double jerk_rotation, double jerk_translation) {
+[[gnu::flatten]] void MovingState::predict(double dt_s, double jerk_rotation, double jerk_translation) {
   const double t = dt_s, h = 0.5 * t * t;
   // An attitude error rotates with the body.
   const Vector3 turn = rate.head<3>() * t + acceleration.head<3>() * h;
@@ -129,12 +177,12 @@ void MovingState::predict(double dt_s, double jerk_rotation, double jerk_transla
   ap.leftCols<3>() = ap.leftCols<3>().lazyProduct(E.transpose()).eval();
 
   // pose += rate t + acceleration t^2/2, then rate += acceleration t.
-  pp += t * (rp + rp.transpose()) + h * (ap + ap.transpose()) + (t * t) * rr + (t * h) * (ar + ar.transpose()) +
-        (h * h) * aa;
-  rp += t * rr + h * ar.transpose();
+  const Matrix6 pr = rp.transpose(), pa = ap.transpose(), ra = ar.transpose();
+  pp += t * (rp + pr) + h * (ap + pa) + (t * t) * rr + (t * h) * (ar + ra) + (h * h) * aa;
+  rp += t * rr + h * ra;
   ap += t * ar + h * aa;
   rp += t * ap;
-  rr += t * (ar + ar.transpose()) + (t * t) * aa;
+  rr += t * (ar + ra) + (t * t) * aa;
   ar += t * aa;
 
   const double q[6] = {t * h * h / 5.0, h * h / 2.0, h * t / 3.0, t * t * t / 3.0, h, t};
@@ -144,50 +192,37 @@ void MovingState::predict(double dt_s, double jerk_rotation, double jerk_transla
   add_diagonal(rr, jerk_rotation * q[3], jerk_translation * q[3]);
   add_diagonal(ar, jerk_rotation * q[4], jerk_translation * q[4]);
   add_diagonal(aa, jerk_rotation * q[5], jerk_translation * q[5]);
-  predict_mean(t);
+  pose.R = E * pose.R;
+  pose.t += rate.tail<3>() * t + acceleration.tail<3>() * h;
+  rate += acceleration * t;
 }
 
-void MovingState::predict_second(double dt_s) {
+[[gnu::flatten]] void MovingState::predict_second(double dt_s) {
   const Matrix3 E = rotation_exp(rate.head<3>() * dt_s + acceleration.head<3>() * (0.5 * dt_s * dt_s));
   second.sp.leftCols<3>() = second.sp.leftCols<3>().lazyProduct(E.transpose()).eval();
   second.sp += dt_s * second.sr + (0.5 * dt_s * dt_s) * second.sa;
   second.sr += dt_s * second.sa;
 }
 
-void MovingState::apply(const Matrix6& Tp, const Matrix6& Tr, const Matrix6& Ta, const Vector6& whitened) {
-  subtract_product(pp, Tp, Tp);
-  subtract_product(rp, Tr, Tp);
-  subtract_product(rr, Tr, Tr);
-  subtract_product(ap, Ta, Tp);
-  subtract_product(ar, Ta, Tr);
-  subtract_product(aa, Ta, Ta);
-  pose = pose.moved_by(Tp * whitened);
-  rate += Tr * whitened;
-  acceleration += Ta * whitened;
-}
-
 void MovingState::correct(const SweepInformation& sweep, const Innovation& innovation, bool linked) {
-  const Matrix6 Tp = gain_side(pp, sweep, innovation);
-  const Matrix6 Tr = gain_side(rp, sweep, innovation);
-  const Matrix6 Ta = gain_side(ap, sweep, innovation);
-  if (linked) {
-    const Matrix6 Ts = gain_side(second.sp, sweep, innovation);
-    subtract_product(second.sr, Ts, Tr);
-    subtract_product(second.sa, Ts, Ta);
-    correct_station(second, Ts, Tp, innovation);
-  }
-  apply(Tp, Tr, Ta, innovation.whitened);
+  without_blind_column(sweep, [&](auto blind) {
+    const Gains<blind> gain = {gain_of<blind>(innovation), gain_of<blind>(rp, sweep, innovation),
+                               gain_of<blind>(ap, sweep, innovation)};
+    if (linked) correct_station<blind>(second, gain_of<blind>(second.sp, sweep, innovation), gain, innovation);
+    correct_motion<blind>(*this, gain, innovation);
+  });
 }
 
 void MovingState::correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view) {
-  const Matrix6 Tp = gain_side(with_seen(view, pp, second.sp.transpose()), sweep, innovation);
-  const Matrix6 Tr = gain_side(with_seen(view, rp, second.sr.transpose()), sweep, innovation);
-  const Matrix6 Ta = gain_side(with_seen(view, ap, second.sa.transpose()), sweep, innovation);
-  const Matrix6 Ts = gain_side(with_seen(view, second.sp, second.ss), sweep, innovation);
-  subtract_product(second.sr, Ts, Tr);
-  subtract_product(second.sa, Ts, Ta);
-  correct_station(second, Ts, Tp, innovation);
-  apply(Tp, Tr, Ta, innovation.whitened);
+  without_blind_column(sweep, [&](auto blind) {
+    const auto of = [&](const Matrix6& with_body, const Matrix6& with_second) {
+      return gain_of<blind>(with_seen(view, with_body, with_second), sweep, innovation);
+    };
+    const Gains<blind> gain = {of(pp, second.sp.transpose()), of(rp, second.sr.transpose()),
+                               of(ap, second.sa.transpose())};
+    correct_station<blind>(second, of(second.sp, second.ss), gain, innovation);
+    correct_motion<blind>(*this, gain, innovation);
+  });
 }
 
 void RestingState::mirror(const Tilt& tilt) {

@@ -12,7 +12,9 @@ namespace pharos::motion {
 
 /// Innovation of a sweep and its covariance, before the correction, in the sweep's own whitened coordinates.
 struct Innovation {
-  Matrix6 factor = Matrix6::Zero();  // C of I + L^T P L = C C^T, lower triangular
+  Matrix6 side;          // P L, without its column that is zero
+  Matrix6 factor;        // C of I + L^T P L = C C^T: below the diagonal, where L's columns are not zero
+  Vector6 inverse_root;  // there, 1 over C's diagonal
   Vector6 whitened = Vector6::Zero();
   double chi2 = 0.0;     // of the prediction's part
   double log_det = 0.0;  // of I + L^T P L
@@ -22,10 +24,10 @@ struct Innovation {
 /// that the sweep was linearised at.
 Innovation innovation_of(const SweepInformation& sweep, const Matrix6& pose_covariance, const Vector6& offset);
 
-/// Correction of a pose with this error covariance by the innovation.
-Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation);
+/// Correction of the pose by its innovation.
+Vector6 pose_shift(const SweepInformation& sweep, const Innovation& innovation);
 
-/// Covariance of a pose after its correction by the innovation.
+/// Covariance of that pose, `covariance` before, after its correction by the innovation.
 Matrix6 corrected_covariance(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation);
 
 /// Whose sweep it is: that of the station in whose frame the belief is kept, or that of a second one.
@@ -86,10 +88,6 @@ struct MovingState {
   void correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view);
   /// Tilted to the other side, from the same motion of the sensors; not of one with a second station.
   void mirror(const Tilt& tilt);
-
- private:
-  void apply(const Matrix6& pose_gain, const Matrix6& rate_gain, const Matrix6& acceleration_gain,
-             const Vector6& whitened);
 };
 
 }  // namespace pharos::motion

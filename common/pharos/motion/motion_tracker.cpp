@@ -117,10 +117,13 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
     pair_.push(bearings, axis, sweep.flash.station, tracks(), view_of(station), noise_of(station));
     assess(station);
   }
-  if (const auto cycle =
-          station.assembler.push(sweep.flash.station, axis, sweep.flash.start_ticks, sweep.flags, bearings)) {
-    station.track.check(*cycle, view_of(station), noise_of(station), options_.solve);
-  }
+  const auto check = [&](const track::Cycle* cycle) {
+    if (cycle != nullptr) station.track.check(*cycle, view_of(station), noise_of(station), options_.solve);
+  };
+  const track::Cycle* closed = station.assembler.close_before(axis, sweep.flash.start_ticks);
+  check(closed);
+  check(station.assembler.add(sweep.flash.station, axis, sweep.flash.start_ticks, sweep.flags, bearings,
+                              closed == nullptr));
   if (bearings.empty()) return std::nullopt;
   return answer(station, sweep, bearings);
 }
@@ -214,7 +217,8 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   e.iterations = 1;
   e.residual_rms = residual_rms(fit.used, pose_difference(best.state_estimate().pose, fit.pose));
   if (best.cycle_information(observer).known()) {
-    const Matrix6 unit = best.cycle_information(observer).covariance_of(1.0 - options_.solve.rho, options_.solve.rho);
+    const Matrix6 unit =
+        best.cycle_information(observer).variances_of(1.0 - options_.solve.rho, options_.solve.rho).asDiagonal();
     e.adop_deg_per_rad = pose::adop_of(unit);
     e.pdop_m_per_rad = pose::pdop_of(unit);
   } else {

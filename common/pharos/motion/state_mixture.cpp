@@ -6,7 +6,8 @@
 namespace pharos::motion {
 namespace {
 
-void blend_block(Matrix6& into, const Matrix6& other, double weight, const Vector6& left, const Vector6& right) {
+[[gnu::flatten]] void blend_block(Matrix6& into, const Matrix6& other, double weight, const Vector6& left,
+                                  const Vector6& right) {
   into += weight * (other - into) + (weight * (1.0 - weight) * left).lazyProduct(right.transpose());
 }
 

@@ -71,10 +71,15 @@ class Linearisation {
     gradient.z() = along * inverse_square;
     fit.jacobian << q.cross(gradient), gradient;
     fit.point_m = p;
-    const double ideal = kPi / 2 - std::atan2(along, ahead);
-    const double raw = view_.calibration != nullptr ? raw_theta(*view_.calibration, view_.form, axis_, p) : ideal;
-    fit.residual_rad = bearing.theta_rad - raw;
-    fit.ideal_rad = ideal + fit.residual_rad;
+    if (view_.calibration != nullptr) {
+      const lighthouse::ThetaPair ideal = lighthouse::ideal_thetas(p);
+      fit.residual_rad = bearing.theta_rad - raw_theta(*view_.calibration, view_.form, axis_, ideal);
+      fit.ideal_rad = ideal[axis_] + fit.residual_rad;
+    } else {
+      const double ideal = kPi / 2 - std::atan2(along, ahead);
+      fit.residual_rad = bearing.theta_rad - ideal;
+      fit.ideal_rad = ideal + fit.residual_rad;
+    }
     // The uncertainty of the rates moves the point between this hit and the estimate's instant.
     fit.variance = own_variance_ + narrow_variance(bearing.width_ticks) +
                    dt_s * dt_s *
@@ -151,7 +156,7 @@ SweepInformation summed(const HitFits& hits, double common_variance) {
 std::size_t worst_of(const HitFits& hits, const SweepInformation& information, const Matrix6& covariance,
                      double& deviations) {
   const Innovation innovation = innovation_of(information, covariance, Vector6::Zero());
-  const Vector6 shift = pose_shift(covariance, information, innovation);
+  const Vector6 shift = pose_shift(information, innovation);
   double weights = 0.0, mean = 0.0;
   for (const HitFit& hit : hits) {
     weights += 1.0 / hit.variance;
@@ -200,8 +205,9 @@ bool credible(const SweepInformation& information) {
 
 }  // namespace
 
-SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                   const StateEstimate& state_estimate, std::int64_t time_ticks, const SweepNoise& noise) {
+[[gnu::flatten]] SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
+                                    const StateEstimate& state_estimate, std::int64_t time_ticks,
+                                    const SweepNoise& noise) {
   SweepFit fit;
   fit.pose = state_estimate.pose;
   const double common_variance = noise.common_rad * noise.common_rad;

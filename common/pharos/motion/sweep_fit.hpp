@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "pharos/geometry/target.hpp"
 #include "pharos/lighthouse/bearing.hpp"
 #include "pharos/lighthouse/station_calibration.hpp"
@@ -24,15 +26,27 @@ struct StationView {
 
 /// One hit relative to a state estimate.
 struct HitFit {
-  Vector6 jacobian;           // of its bearing by the pose error
-  Vector3 point_m;            // where the sensor is held to be, lighthouse frame
-  double residual_rad = 0.0;  // measured - predicted
-  double ideal_rad = 0.0;     // measured, the station's errors taken out
-  double variance = 0.0;      // own, rad^2
-  std::uint8_t bearing = 0;   // index in the sweep
+  HitFit() {}  // sets nothing: a vector has all of its elements made, and one that is used is set by what makes it
+  Vector6 jacobian;      // of its bearing by the pose error
+  Vector3 point_m;       // where the sensor is held to be, lighthouse frame
+  double residual_rad;   // measured - predicted
+  double ideal_rad;      // measured, the station's errors taken out
+  double variance;       // own, rad^2
+  std::uint8_t bearing;  // index in the sweep
 };
 
-using HitFits = StaticVector<HitFit, kMaxSensors>;
+/// Copies the hits that it holds, few of what it has room for.
+class HitFits : public StaticVector<HitFit, kMaxSensors> {
+ public:
+  HitFits() = default;
+  HitFits(const HitFits& other) { *this = other; }
+  HitFits& operator=(const HitFits& other) {
+    resize(other.size());
+    std::copy(other.begin(), other.end(), begin());
+    return *this;
+  }
+  ~HitFits() = default;
+};
 
 /// The plane that fits the sensors of some hits best, lighthouse frame; of at least one.
 struct SensorPlane {

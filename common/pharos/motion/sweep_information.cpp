@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "pharos/motion/unrolled.hpp"
+
 namespace pharos::motion {
 namespace {
 
@@ -65,11 +67,12 @@ SweepInformation factored(const Matrix6& a, const Vector6& diagonal, const Vecto
 
 }  // namespace
 
-void InformationSums::add(const Vector6& jacobian, double residual_rad, double weight) {
+[[gnu::flatten]] void InformationSums::add(const Vector6& jacobian, double residual_rad, double weight) {
   const Vector6 weighted = weight * jacobian;
-  for (int j = 0; j < 6; ++j) {
-    for (int i = j; i < 6; ++i) square_(i, j) += weighted[i] * jacobian[j];
-  }
+  for_each_number<6>([&](auto number) {
+    constexpr int j = number, rows = 6 - even(j);
+    square_.col(j).tail<rows>() += weighted.tail<rows>() * jacobian[j];
+  });
   by_residual_ += weighted * residual_rad;
   sum_ += weighted;
   weight_ += weight;

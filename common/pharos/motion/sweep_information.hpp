@@ -27,7 +27,7 @@ class InformationSums {
   SweepInformation close(double common_variance) const;
 
  private:
-  Matrix6 square_ = Matrix6::Zero();
+  Matrix6 square_ = Matrix6::Zero();  // its lower triangle
   Vector6 by_residual_ = Vector6::Zero();
   Vector6 sum_ = Vector6::Zero();
   double weight_ = 0.0;

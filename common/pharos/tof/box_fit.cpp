@@ -40,6 +40,9 @@ class WalledSide {
         lit_(wall_ < kMinWall ? 0.0F : 1.0F) {}
 
   float reach() const { return half_ + wall_ + 1.0F; }
+  // The height is zero outside of these, with a margin for rounding.
+  float low() const { return sign_ < 0.0F ? -far_end() : -near_end(); }
+  float high() const { return sign_ < 0.0F ? near_end() : far_end(); }
   float height(float place) const {
     const float inside = std::clamp(half_ + 0.5F - std::fabs(place), 0.0F, 1.0F);
     const float beyond = sign_ * place - half_;
@@ -48,9 +51,39 @@ class WalledSide {
   }
 
  private:
-  static constexpr float kMinWall = 0.5F;
+  static constexpr float kMinWall = 0.5F, kMargin = 0.02F;
+
+  float near_end() const { return half_ + 0.5F + kMargin; }
+  float far_end() const { return half_ + std::max(0.5F, wall_) + kMargin; }
 
   float half_, sign_, wall_, per_wall_, lit_;
+};
+
+// The columns of a row in which a box across two turned sides can have a height: what lies beside them adds nothing.
+class RowSpan {
+ public:
+  RowSpan(const WalledSide& along, const WalledSide& across, float c, float s)
+      : along_(along), across_(across), c_(c), s_(s) {}
+
+  // Cuts [first, last], columns over the box' centre, at `dv` rows over it.
+  void cut(float dv, float& first, float& last) const {
+    within(s_ * dv, c_, along_, first, last);
+    within(c_ * dv, -s_, across_, first, last);
+  }
+
+ private:
+  // side.low() <= offset + slope column <= side.high()
+  static void within(float offset, float slope, const WalledSide& side, float& first, float& last) {
+    if (std::fabs(slope) < kSteepest) return;
+    const float one = (side.low() - offset) / slope, other = (side.high() - offset) / slope;
+    first = std::max(first, std::min(one, other));
+    last = std::min(last, std::max(one, other));
+  }
+  static constexpr float kSteepest = 1e-3F;
+
+  const WalledSide& along_;
+  const WalledSide& across_;
+  float c_, s_;
 };
 
 class Voter {
@@ -117,23 +150,30 @@ class Voter {
     const int right = std::min(grid_.side() - 1, static_cast<int>(u0 + wide));
     const int bottom = std::min(grid_.side() - 1, static_cast<int>(v0 + tall));
     // Four sums side by side: one alone waits for each of its additions.
-    constexpr std::size_t kSums = 4;
+    constexpr int kSums = 4;
     std::array<float, kSums> sums{};
-    std::array<float, static_cast<std::size_t>(kMaxGridSide) + kSums> of_row;
-    const auto count = static_cast<std::size_t>(std::max(0, right - left + 1));
-    std::fill_n(of_row.begin() + static_cast<std::ptrdiff_t>(count), kSums, 0.0F);
+    std::array<float, static_cast<std::size_t>(kMaxGridSide + kSums)> of_row;
+    const RowSpan span(along, across, c, s);
     for (int row = top; row <= bottom; ++row) {
       const float dv = static_cast<float>(row) - v0;
+      float first_du = static_cast<float>(left) - u0, last_du = static_cast<float>(right) - u0;
+      span.cut(dv, first_du, last_du);
+      if (!(first_du <= last_du)) continue;
+      // Each column has its sum, wherever the row begins.
+      const int begin = left + (static_cast<int>(std::ceil(first_du + u0)) - left) / kSums * kSums;
+      const int end = std::min(right, static_cast<int>(last_du + u0)) + 1;
       const float* weight = grid_.weights_of(row);
       const float* height = grid_.heights_of(row);
-      for (int column = left; column <= right; ++column) {
+      for (int column = begin; column < end; ++column) {
         const float du = static_cast<float>(column) - u0;
         const float model = along.height(c * du + s * dv) * across.height(c * dv - s * du);
         const float x = 0.5F * (1.0F + vote_at(height[column]));
-        of_row[static_cast<std::size_t>(column - left)] = weight[column] * model * (2.0F * x - model);
+        of_row[static_cast<std::size_t>(column - begin)] = weight[column] * model * (2.0F * x - model);
       }
-      for (std::size_t k = 0; k < count; k += kSums) {
-        for (std::size_t i = 0; i < kSums; ++i) sums[i] += of_row[k + i];
+      const int count = end - begin;
+      std::fill_n(of_row.begin() + count, kSums, 0.0F);
+      for (int k = 0; k < count; k += kSums) {
+        for (int i = 0; i < kSums; ++i) sums[static_cast<std::size_t>(i)] += of_row[static_cast<std::size_t>(k + i)];
       }
     }
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);

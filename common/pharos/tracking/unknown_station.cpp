@@ -16,7 +16,9 @@ motion::HitFit hit_at(const LighthouseFromBody& T_lighthouse_body, const Vector3
   gradient[index_of(axis)] = -ahead * inverse_square;
   gradient.z() = along * inverse_square;
   hit.jacobian << q.cross(gradient), gradient;
+  hit.residual_rad = hit.ideal_rad = 0.0;
   hit.variance = 1.0;
+  hit.bearing = 0;
   return hit;
 }
 
