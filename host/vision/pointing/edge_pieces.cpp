@@ -13,9 +13,11 @@ constexpr double kMaxOffSigmas = 4.2;
 // What blur and the renderer's or the sensor's pixels leave between pieces of one edge.
 constexpr double kOffSlack_px = 0.05;
 
-// What blur and pixels leave of a step; how certain it must be, and of how many points a part must be.
+// What blur and pixels leave of a step; how certain it must be, and of how many points a part must be. The place is the
+// best of hundreds, and the scatter's correlation is uncertain where a panel's cells make it long: at six sigmas a
+// straight side was cut (6.5), steps of faces behind a side are nine and more.
 constexpr double kMinStep_px = 0.1;
-constexpr double kStepSigmas = 6.0;
+constexpr double kStepSigmas = 8.0;
 constexpr std::size_t kMinPart = 20;
 
 using Piece = std::span<const EdgePoint>;
