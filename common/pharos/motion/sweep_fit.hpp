@@ -39,7 +39,7 @@ struct HitFit {
 class HitFits : public StaticVector<HitFit, kMaxSensors> {
  public:
   HitFits() = default;
-  HitFits(const HitFits& other) { *this = other; }
+  HitFits(const HitFits& other) : StaticVector() { *this = other; }
   HitFits& operator=(const HitFits& other) {
     resize(other.size());
     std::copy(other.begin(), other.end(), begin());
