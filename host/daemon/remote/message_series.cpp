@@ -39,7 +39,7 @@ MessageSeries::Verdict MessageSeries::take(std::int64_t sequence, std::int64_t u
   if (sequence < 0) return Verdict::kUnproven;
   if (other_ && now_ns - other_->last_ns > kForgotten_ns) other_.reset();
   if (!series_) {
-    series_.emplace();
+    series_ = Series{};
     series_->newest = message;
     series_->add(message, now_ns);
     return Verdict::kNext;
@@ -66,7 +66,7 @@ MessageSeries::Verdict MessageSeries::take_other(const Message& message, std::in
   const Relation relation_to_other = other_ ? relation(*other_, message) : Relation::kForeign;
   if (relation_to_other == Relation::kRepeats) return Verdict::kRepeated;
   if (relation_to_other == Relation::kForeign) {
-    other_.emplace();
+    other_ = Series{};
     other_->newest = message;
     advances_ = other_alone_ = 0;
   }

@@ -15,7 +15,6 @@ using ring2::CircleModel;
 using ring2::CircleProblem;
 using ring2::Contour;
 using ring2::ContourSet;
-using ring2::Feature;
 
 // Error of a whole ellipse if some of its edge points belong to another edge: the width of a rim whose two edges were
 // mixed.
