@@ -66,6 +66,13 @@ void add_diagonal(Matrix6& matrix, double rotation, double translation) {
   }
 }
 
+// By the rotation E of the attitude in t; h is half of its square.
+void move(MovingState& state, const Matrix3& E, double t, double h) {
+  state.pose.R = E * state.pose.R;
+  state.pose.t += state.rate.tail<3>() * t + state.acceleration.tail<3>() * h;
+  state.rate += state.acceleration * t;
+}
+
 template <int blind>
 [[gnu::flatten]] Innovation innovation_without(const SweepInformation& sweep, const Matrix6& pose_covariance,
                                                const Vector6& offset) {
@@ -162,8 +169,8 @@ void RestingState::correct_second(const SweepInformation& sweep, const Innovatio
 }
 
 void MovingState::predict_mean(double dt_s) {
-  pose = pose.moved_by(rate * dt_s + acceleration * (0.5 * dt_s * dt_s));
-  rate += acceleration * dt_s;
+  const double h = 0.5 * dt_s * dt_s;
+  move(*this, rotation_exp(rate.head<3>() * dt_s + acceleration.head<3>() * h), dt_s, h);
 }
 
 [[gnu::flatten]] void MovingState::predict(double dt_s, double jerk_rotation, double jerk_translation) {
@@ -192,9 +199,7 @@ void MovingState::predict_mean(double dt_s) {
   add_diagonal(rr, jerk_rotation * q[3], jerk_translation * q[3]);
   add_diagonal(ar, jerk_rotation * q[4], jerk_translation * q[4]);
   add_diagonal(aa, jerk_rotation * q[5], jerk_translation * q[5]);
-  pose.R = E * pose.R;
-  pose.t += rate.tail<3>() * t + acceleration.tail<3>() * h;
-  rate += acceleration * t;
+  move(*this, E, t, h);
 }
 
 [[gnu::flatten]] void MovingState::predict_second(double dt_s) {

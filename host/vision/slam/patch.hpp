@@ -41,7 +41,7 @@ struct FoundPatch {
 /// brightness and brightness' slopes along u and v (Baker and Matthews 2004), starting at the feature's pixel, on its
 /// level. The slopes are of light that changes over a turning surface: without them it moves the position.
 /// `T_frame_keyframe` need only be accurate to a degree. Empty where the view is too oblique, the appearance differs,
-/// or the position moves by more than a pixel or two. Some 1.5 us.
+/// or the position moves by more than a pixel or two. Some 2.6 us.
 std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
                                      const StereoCamera& camera, const Feature& feature,
                                      const std::vector<PyramidLevel>& pyramid);

@@ -2,8 +2,10 @@
 #include "tools/evaluation/reproduce/integrity/add_reproduce_integrity.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
+#include "host/support/input_error.hpp"
 #include "tools/evaluation/reproduce/integrity/campaign.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
@@ -46,7 +48,16 @@ int write_pictures(const Options& options) {
   return kExitAnswered;
 }
 
+void require_tone_curves(const Options& options) {
+  if (!options.tone_curve) return;
+  for (const IntegrityKind& kind : integrity_kinds()) {
+    const bool is_named = std::find(options.kinds.begin(), options.kinds.end(), kind.name) != options.kinds.end();
+    if (is_named && !kind.toned) throw host::InputError("--tone-curve draws ring2 and line, not " + kind.name);
+  }
+}
+
 int run(const Options& options) {
+  require_tone_curves(options);
   if (!options.folder.empty()) return write_pictures(options);
   require_writable(options.output.path);
   std::unique_ptr<Output> trials;
@@ -83,9 +94,12 @@ void add_reproduce_integrity(CLI::App& reproduce, int& exit_code) {
       ->capture_default_str();
   add_seed_option(*command, options->seed, "The first one");
   command->add_option("--trials", options->trials, "File for one row a quantity of every trial");
-  command->add_option("--write", options->folder, "Instead: what is measured of the first seed, into this folder");
-  command->add_flag("--tone-curve", options->tone_curve,
-                    "By cameras whose grey values are a power of the light: 0.45 to 0.6; ring2 and line");
+  auto* write =
+      command->add_option("--write", options->folder, "Instead: what is measured of the first seed, into this folder");
+  command
+      ->add_flag("--tone-curve", options->tone_curve,
+                 "By cameras whose grey values are a power of the light: 0.45 to 0.6; ring2 and line")
+      ->excludes(write);
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);
   command->footer(kExample);

@@ -8,16 +8,10 @@
 
 #include "pharos/geometry/rotation.hpp"
 #include "support/painted_panel.hpp"
+#include "tools/sim/optics/tone_curve.hpp"
 
 namespace pharos::pointing {
 namespace {
-
-host::GreyImage toned(host::GreyImage image, double power) {
-  for (std::uint16_t& pixel : image.pixels) {
-    pixel = static_cast<std::uint16_t>(65535.0 * std::pow(pixel / 65535.0, power));
-  }
-  return image;
-}
 
 // A panel 2 m wide at 40 m, its far end a tenth farther than its near one.
 testing::PaintedPanel slanted_panel(int k) {
@@ -35,7 +29,9 @@ TEST(ToneError, IsStatedWhereGreyValuesAreAPowerOfTheLight) {
   for (const double power : {0.45, 0.6, 1.6}) {
     for (int k = 0; k < 4; ++k) {
       const testing::PaintedPanel scene = slanted_panel(k);
-      const auto panel = measure_panel(toned(scene.image(), power).view(), scene.camera);
+      host::GreyImage image = scene.image();
+      sim::apply_tone_curve(image, power);
+      const auto panel = measure_panel(image.view(), scene.camera);
       ASSERT_TRUE(panel.ok()) << power << " " << k;
       const PointingResult answer = answer_of(*panel, scene.sight, Tone::kUnknown);
       const double error = off_rad(answer.axis.axis, scene.axis_station);
