@@ -46,8 +46,9 @@ DepthCamera camera_of(const DepthFrame& frame, const DepthCamera& by_file) {
 TofResult TofEstimator::measure(const DepthFrame& frame) {
   TofResult answer;
   StageClock clock(answer.stage_ns);
-  const auto pose = tof::measure_tof_pose({frame.intensity_view(), frame.depth_view()}, camera_of(frame, camera_),
-                                          settings_, *workspace_, &clock);
+  auto pose = tof::measure_tof_pose({frame.intensity_view(), frame.depth_view()}, camera_of(frame, camera_), settings_,
+                                    *workspace_, &clock);
+  if (pose) pair_.refine(*pose);
   last_ = pose ? std::make_unique<tof::TofPose>(*pose) : nullptr;
   if (!pose) {
     answer.refusal = tof::name_of(pose.error());

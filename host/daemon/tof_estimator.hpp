@@ -9,6 +9,7 @@
 #include "host/preview/drawing.hpp"
 #include "host/publish/tof_report.hpp"
 #include "pharos/camera/depth_camera.hpp"
+#include "pharos/tof/connector_pair.hpp"
 #include "pharos/tof/tof_settings.hpp"
 #include "pharos/tof/tof_stages.hpp"
 
@@ -26,7 +27,8 @@ struct TofResult : MeasurementOutcome {
   std::array<std::int64_t, tof::kTofStages> stage_ns{};
 };
 
-/// Computes a pose from a frame: the core's measure_tof_pose with its own workspace.
+/// Computes a pose from a frame: the core's measure_tof_pose with its own workspace, the turn by both connectors where
+/// earlier frames have told how they stand.
 class TofEstimator {
  public:
   TofEstimator(const DepthCamera& camera, const tof::TofSettings& settings);
@@ -41,6 +43,7 @@ class TofEstimator {
   DepthCamera camera_;
   tof::TofSettings settings_;
   std::unique_ptr<tof::TofWorkspace> workspace_;
+  tof::ConnectorPair pair_;
   std::unique_ptr<tof::TofPose> last_;  // of the last frame; null where it has none
 };
 

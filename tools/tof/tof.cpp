@@ -10,6 +10,7 @@
 #include "host/cameras/tof_target.hpp"
 #include "host/device/frame_directory.hpp"
 #include "host/support/input_error.hpp"
+#include "pharos/tof/connector_pair.hpp"
 #include "pharos/tof/tof_pose.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/image_input.hpp"
@@ -36,6 +37,8 @@ constexpr const char* kExample =
     "Poses are T_camera_target: the ring's centre, and (8) of the paper for the angles. Without a connector (flag "
     "no_connector) gamma and the\n"
     "quaternion are empty and sigma_rot_deg is that of the two tilts. --summary prints mean and sigma as table 2.\n"
+    "Where both connectors are seen, gamma comes from both: the angle between them is learnt from the frames before. "
+    "Not with --window.\n"
     "--covariance: in the camera's frame; without a connector the variance about Z' is that of a uniform angle, pi^2/3 "
     "rad^2.\n"
     "--method paper: no sigma, no flags; 8-bit depth, one connector's middle, any region that passes its rules may be "
@@ -88,7 +91,9 @@ class Measurer {
     }
     if (options_.depth_bits < 16) quantise_depth(frame.depth, options_.depth_bits);
     const tof::TofFrame view{frame.intensity_view(), frame.depth_view()};
-    const auto pose = tof::measure_tof_pose(view, camera_, options_.settings, *workspace_);
+    auto pose = tof::measure_tof_pose(view, camera_, options_.settings, *workspace_);
+    // Not for means: errors of the angle between connectors are common to the frames.
+    if (pose && options_.window == 1) pair_.refine(*pose);
     if (!options_.overlay.empty()) {
       const std::filesystem::path picture = std::filesystem::path(options_.overlay) / (name(index) + "_tof.png");
       write_overlay(picture.string(), view, camera_, pose, *workspace_);
@@ -103,6 +108,7 @@ class Measurer {
   host::FrameDirectory frames_;
   ImageInput input_{"frame"};
   std::unique_ptr<tof::TofWorkspace> workspace_;
+  tof::ConnectorPair pair_;
 };
 
 // Rows of single frames, or of windows of frames: a window's row is that of its last frame.

@@ -302,6 +302,7 @@ class FaceFitter {
       brightness = std::clamp(brightness + change[kBrightness], 0.5 * brightness, 2.0 * brightness);
       face.edge_points = static_cast<std::int32_t>(used);
       const double common = kSilhouetteSigma_px * metres_per_px_;
+      face.common_variance_m2 = common * common;
       face.covariance = kFaceCorrelation * inverse->topLeftCorner<2, 2>() + common * common * Matrix2::Identity();
     }
     brightness_ = brightness;

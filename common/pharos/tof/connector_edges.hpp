@@ -12,6 +12,7 @@ struct ConnectorFace {
   double height_m = 0.0;  ///< over the ring's plane
   double sigma_height_m = 0.0;
   Matrix2 covariance = Matrix2::Zero();  ///< of the centre, in the ring's plane, m^2
+  double common_variance_m2 = 0.0;       ///< of it, in every direction: what frames of one view share
   double edge_rms_px = 0.0;              ///< deviation of one pixel at an edge, as a displacement of it
   std::int32_t edge_points = 0;          ///< pixels used; 0: the fit failed
   /// Light at the corners away from walls in sight: 1 a rectangle's, 0 that of a disc as large; and its deviation.
