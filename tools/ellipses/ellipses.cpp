@@ -8,6 +8,7 @@
 
 #include "host/support/input_error.hpp"
 #include "pharos/ellipse/detect.hpp"
+#include "pharos/ellipse/tone_error.hpp"
 #include "tools/ellipses/overlay.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/image_input.hpp"
@@ -31,7 +32,8 @@ constexpr const char* kExample =
     "One row an ellipse, best score first; an image without any has no row and a note. Pixel (0, 0) is the centre of\n"
     "the first pixel; a_px >= b_px are semi-axes, theta_rad runs from +u (right) towards +v (down). score is F_val,\n"
     "coverage the share of the contour that has edges, bright_inside 1 where the inside is the brighter side.\n"
-    "Images: PNG, TIFF, PGM or PPM of 8 or 16 bits, JPEG or BMP, grey or colour (luma); - is standard input.";
+    "Images: PNG, TIFF, PGM or PPM of 8 or 16 bits, JPEG or BMP, grey or colour (luma); - is standard input.\n"
+    "Values of 16 bits are taken for linear in light; of 8 bits the sigmas of the axes include what a tone curve does.";
 
 struct Options {
   std::vector<std::string> images;
@@ -61,7 +63,10 @@ class Detector {
   std::span<const DetectedEllipse> detect(const host::GreyImage& image, const ellipse::EllipseSettings& settings) {
     planes_.resize(std::max(planes_.size(), ellipse::kPlanes * image.pixels.size()));
     workspace_->planes = planes_;
-    return ellipse::detect_ellipses(image.view(), settings, *workspace_);
+    const auto found = ellipse::detect_ellipses(image.view(), settings, *workspace_);
+    // Of 8 bits, which may have been made for screens, nobody says that values are linear in light.
+    if (image.bits == 8) ellipse::add_tone_error(image.view(), *workspace_);
+    return found;
   }
   const EllipseWorkspace& workspace() const { return *workspace_; }
 

@@ -58,6 +58,12 @@ TEST(IntegritySeeds, Ellipses) {
                     {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934, 93094, 212802, 490468, 492524});
 }
 
+// Bright shapes grow by a part of the blur: dots, rings and cut contours.
+TEST(IntegritySeeds, EllipsesByAToneCurve) {
+  expect_no_failure("ellipses", {499001, 499004, 499005, 499006, 499007, 499011, 499012, 499013, 499015, 499016},
+                    &IntegrityKind::toned);
+}
+
 // A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster or
 // a cover for a connector behind a boom; a small ring, of which depth alone tells the size, for a described connector,
 // and one of three thrusters.

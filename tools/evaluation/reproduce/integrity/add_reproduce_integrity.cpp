@@ -7,6 +7,7 @@
 
 #include "host/support/input_error.hpp"
 #include "tools/evaluation/reproduce/integrity/campaign.hpp"
+#include "tools/sim/optics/tone_curve.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/progress.hpp"
@@ -43,7 +44,8 @@ bool is_wanted(const Options& options, const IntegrityKind& kind) {
 
 int write_pictures(const Options& options) {
   for (const IntegrityKind& kind : integrity_kinds()) {
-    if (is_wanted(options, kind)) kind.write(options.seed, options.folder);
+    const double tone_power = options.tone_curve ? sim::tone_power(options.seed) : 1.0;
+    if (is_wanted(options, kind)) kind.write(options.seed, options.folder, tone_power);
   }
   return kExitAnswered;
 }
@@ -52,7 +54,8 @@ void require_tone_curves(const Options& options) {
   if (!options.tone_curve) return;
   for (const IntegrityKind& kind : integrity_kinds()) {
     const bool is_named = std::find(options.kinds.begin(), options.kinds.end(), kind.name) != options.kinds.end();
-    if (is_named && !kind.toned) throw host::InputError("--tone-curve draws ring2 and line, not " + kind.name);
+    if (is_named && !kind.toned)
+      throw host::InputError("--tone-curve draws ring2, line and ellipses, not " + kind.name);
   }
 }
 
@@ -94,12 +97,9 @@ void add_reproduce_integrity(CLI::App& reproduce, int& exit_code) {
       ->capture_default_str();
   add_seed_option(*command, options->seed, "The first one");
   command->add_option("--trials", options->trials, "File for one row a quantity of every trial");
-  auto* write =
-      command->add_option("--write", options->folder, "Instead: what is measured of the first seed, into this folder");
-  command
-      ->add_flag("--tone-curve", options->tone_curve,
-                 "By cameras whose grey values are a power of the light: 0.45 to 0.6; ring2 and line")
-      ->excludes(write);
+  command->add_option("--write", options->folder, "Instead: what is measured of the first seed, into this folder");
+  command->add_flag("--tone-curve", options->tone_curve,
+                    "By cameras whose grey values are a power of the light: 0.45 to 0.6; ring2, line and ellipses");
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);
   command->footer(kExample);

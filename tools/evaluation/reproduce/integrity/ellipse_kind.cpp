@@ -7,7 +7,9 @@
 
 #include "host/images/grey_image.hpp"
 #include "pharos/ellipse/detect.hpp"
+#include "pharos/ellipse/tone_error.hpp"
 #include "tools/evaluation/problems/drawn_ellipses.hpp"
+#include "tools/sim/optics/tone_curve.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -28,7 +30,7 @@ struct Scene {
   double ground = 0.5;
   std::vector<TrueEllipse> truth;
   std::vector<test::Polygon> polygons;  // drawn over all ellipses
-  std::vector<std::uint16_t> pixels;
+  host::GreyImage image;
 
   // Of an outline: inside the image and under no polygon.
   double visible(const TrueEllipse& e) const {
@@ -61,7 +63,9 @@ class SceneMaker {
     const double noise = uniform(0.5, 3.0);
     imaging.full_well_e /= noise * noise;
     imaging.read_noise_e /= noise;
-    scene.pixels = scene.drawing.image(imaging, random_);
+    scene.image.width_px = kWidth_px;
+    scene.image.height_px = kHeight_px;
+    scene.image.pixels = scene.drawing.image(imaging, random_);
     return scene;
   }
 
@@ -112,10 +116,19 @@ class SceneMaker {
   std::mt19937_64 random_;
 };
 
-std::vector<DetectedEllipse> detected(const Scene& scene) {
-  std::vector<std::uint16_t> planes(ellipse::kPlanes * scene.pixels.size());
+// By a camera with a tone curve: those of people write 8 bits.
+Scene scene_of(std::uint64_t seed, double tone_power) {
+  Scene scene = SceneMaker(seed).make();
+  scene.image.bits = tone_power == 1.0 ? 16 : 8;
+  sim::apply_tone_curve(scene.image, tone_power);
+  return scene;
+}
+
+std::vector<DetectedEllipse> detected(const host::GreyImage& image) {
+  std::vector<std::uint16_t> planes(ellipse::kPlanes * image.pixels.size());
   const auto workspace = std::make_unique<ellipse::EllipseWorkspace>(std::span<std::uint16_t>(planes));
-  const auto found = ellipse::detect_ellipses({scene.pixels.data(), kWidth_px, kHeight_px}, {}, *workspace);
+  const auto found = ellipse::detect_ellipses(image.view(), {}, *workspace);
+  if (image.bits == 8) ellipse::add_tone_error(image.view(), *workspace);
   return {found.begin(), found.end()};
 }
 
@@ -139,13 +152,13 @@ void deviate(const DetectedEllipse& found, const std::vector<TrueEllipse>& truth
       {"axes, px", std::hypot(e.a_px - best->a_px, e.b_px - best->b_px), std::sqrt(c(2, 2) + c(3, 3)), kTolerance_px});
 }
 
-IntegrityTrial trial_of(std::uint64_t seed) {
-  const Scene scene = SceneMaker(seed).make();
+IntegrityTrial trial_of(std::uint64_t seed, double tone_power) {
+  const Scene scene = scene_of(seed, tone_power);
   const TrueEllipse& subject = scene.truth.front();
   IntegrityTrial trial;
   trial.answerable = subject.b_px >= kMinMinor_px && scene.visible(subject) >= kMinVisible;
   bool met = false;
-  for (const DetectedEllipse& found : detected(scene)) {
+  for (const DetectedEllipse& found : detected(scene.image)) {
     deviate(found, scene.truth, trial);
     const ellipse::Ellipse& e = found.ellipse;
     met = met || test::overlap_of(subject, {e.cx_px, e.cy_px, e.a_px, e.b_px, e.theta_rad}) > 0.8;
@@ -158,12 +171,14 @@ IntegrityTrial trial_of(std::uint64_t seed) {
 }  // namespace
 
 IntegrityKind ellipse_kind() {
-  return {"ellipses", "the picture's first ellipse has b >= 4 px and 60 % of it is seen", trial_of,
-          [](std::uint64_t seed, const std::filesystem::path& folder) {
+  return {"ellipses", "the picture's first ellipse has b >= 4 px and 60 % of it is seen",
+          [](std::uint64_t seed) { return trial_of(seed, 1.0); },
+          [](std::uint64_t seed, const std::filesystem::path& folder, double tone_power) {
             std::filesystem::create_directories(folder);
-            const Scene scene = SceneMaker(seed).make();
-            host::write_grey_png((folder / "ellipses.png").string(), {scene.pixels.data(), kWidth_px, kHeight_px});
-          }};
+            const Scene scene = scene_of(seed, tone_power);
+            host::write_grey_png((folder / "ellipses.png").string(), scene.image.view(), scene.image.bits);
+          },
+          [](std::uint64_t seed) { return trial_of(seed, sim::tone_power(seed)); }};
 }
 
 }  // namespace pharos::tools

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/cameras/camera_file.hpp"
 #include "host/images/grey_image.hpp"
@@ -53,13 +54,15 @@ IntegrityTrial trial_of(std::uint64_t seed, double tone_power) {
   return trial;
 }
 
-void write_image(std::uint64_t seed, const std::filesystem::path& folder) {
+void write_image(std::uint64_t seed, const std::filesystem::path& folder, double tone_power) {
   const sim::RandomSatellite satellite = sim::random_satellite(seed);
   sim::make_output_folder(folder);
   host::CameraFile file;
   file.camera.intrinsics = sim::optics_as<PinholeCamera>(satellite.lens);
   sim::write_output(folder / "camera.toml", host::camera_text(file));
-  host::write_grey_png((folder / "image.png").string(), sim::image_of(satellite, seed).view(), 8);
+  host::GreyImage image = sim::image_of(satellite, seed);
+  sim::apply_tone_curve(image, tone_power);
+  host::write_grey_png((folder / "image.png").string(), std::as_const(image).view(), 8);
 }
 
 }  // namespace

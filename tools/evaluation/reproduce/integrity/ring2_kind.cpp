@@ -27,14 +27,15 @@ bool is_answerable(const sim::RandomTarget& target) {
 
 double angle_deg(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegPerRad; }
 
-std::array<host::GreyImage, 2> images_of(const sim::RandomTarget& target, std::uint64_t seed) {
-  return {sim::image_of(target, 0, seed), sim::image_of(target, 1, seed)};
+std::array<host::GreyImage, 2> images_of(const sim::RandomTarget& target, std::uint64_t seed, double tone_power) {
+  std::array<host::GreyImage, 2> images = {sim::image_of(target, 0, seed), sim::image_of(target, 1, seed)};
+  for (host::GreyImage& image : images) sim::apply_tone_curve(image, tone_power);
+  return images;
 }
 
 IntegrityTrial trial_of(std::uint64_t seed, double tone_power) {
   const sim::RandomTarget target = sim::random_target(seed);
-  std::array<host::GreyImage, 2> images = images_of(target, seed);
-  for (host::GreyImage& image : images) sim::apply_tone_curve(image, tone_power);
+  const std::array<host::GreyImage, 2> images = images_of(target, seed, tone_power);
   host::Ring2Detector detector(ring2::core_rig(target.rig), {});
   const host::Ring2Detection found = detector.find({images[0].view(), images[1].view()});
   IntegrityTrial trial;
@@ -54,9 +55,9 @@ IntegrityTrial trial_of(std::uint64_t seed, double tone_power) {
   return trial;
 }
 
-void write_pair(std::uint64_t seed, const std::filesystem::path& folder) {
+void write_pair(std::uint64_t seed, const std::filesystem::path& folder, double tone_power) {
   const sim::RandomTarget target = sim::random_target(seed);
-  const std::array<host::GreyImage, 2> images = images_of(target, seed);
+  const std::array<host::GreyImage, 2> images = images_of(target, seed, tone_power);
   sim::make_output_folder(folder);
   sim::write_output(folder / "rig.toml", sim::rig_text_of(target.rig));
   host::write_grey_png((folder / "left.png").string(), images[0].view(), 8);

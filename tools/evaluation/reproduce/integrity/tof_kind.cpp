@@ -95,7 +95,7 @@ IntegrityKind tof_kind() {
       "tof",
       "ring and connectors are seen whole, every connector's sides longer than 8 px, nearer than 5 m, and the target "
       "is described (every other seed), or there is no second docking ring, square cover, thruster or small ring",
-      trial_of, [](std::uint64_t seed, const std::filesystem::path& folder) {
+      trial_of, [](std::uint64_t seed, const std::filesystem::path& folder, double) {
         sim::TofSimulator simulator = sim::simulator_of(sim::random_tof_body(seed), seed);
         sim::write_tof_frames(simulator, folder, [] {});
       }};

@@ -37,8 +37,8 @@ struct IntegrityKind {
   std::string name;
   std::string rule;  ///< the rule of availability, as text
   std::function<IntegrityTrial(std::uint64_t seed)> trial;
-  /// Writes the images of that seed's trial, for inspection.
-  std::function<void(std::uint64_t seed, const std::filesystem::path& folder)> write;
+  /// Writes the images of that seed's trial, for inspection; grey ones by a tone curve of that power (1: linear).
+  std::function<void(std::uint64_t seed, const std::filesystem::path& folder, double tone_power)> write;
   /// The same trial by cameras whose grey values are a power of the light (sim::tone_power); empty: no grey pictures.
   std::function<IntegrityTrial(std::uint64_t seed)> toned = {};
 };
