@@ -9,6 +9,7 @@
 #include "pharos/ellipse/contour_places.hpp"
 #include "pharos/ellipse/direct_fit.hpp"
 #include "pharos/ellipse/refine_fit.hpp"
+#include "pharos/ellipse/strip_blur.hpp"
 
 namespace pharos::ellipse {
 namespace {
@@ -55,7 +56,7 @@ std::optional<Ellipse> pushed_back(const Ellipse& contour, const Ellipse& other,
   return fit_direct(points);
 }
 
-void separate(DetectedEllipse& outer, DetectedEllipse& inner) {
+void separate(DetectedEllipse& outer, DetectedEllipse& inner, const EllipseWorkspace& workspace) {
   // The stronger step pushes the weaker one's edge farther.
   const double ratio = std::clamp(static_cast<double>(inner.gradient) / static_cast<double>(outer.gradient),
                                   1.0 / kMaxStepRatio, kMaxStepRatio);
@@ -63,6 +64,7 @@ void separate(DetectedEllipse& outer, DetectedEllipse& inner) {
   const std::optional<Ellipse> outside = pushed_back(outer.ellipse, inner.ellipse, true, ratio, strip);
   const std::optional<Ellipse> inside = pushed_back(inner.ellipse, outer.ellipse, false, 1.0 / ratio, strip);
   if (!outside || !inside || !(inside->b_px > 0.0)) return;
+  const auto [at_a_px, at_b_px] = strip_errors(outer, inner, workspace);
   outer.ellipse = *outside;
   inner.ellipse = *inside;
   // Both are the strip's middle, half of the sum, and its width, half of the difference times the slope.
@@ -73,6 +75,10 @@ void separate(DetectedEllipse& outer, DetectedEllipse& inner) {
   for (DetectedEllipse* one : {&outer, &inner}) {
     const double theta = one->covariance(4, 4);
     one->covariance = both;
+    // But the picture does, from some difference on.
+    const double part = one == &outer ? ratio : 1.0 / ratio;
+    one->covariance(2, 2) += part * part * at_a_px * at_a_px;
+    one->covariance(3, 3) += part * part * at_b_px * at_b_px;
     if (both(4, 4) <= theta) continue;
     one->covariance.row(4).setZero();
     one->covariance.col(4).setZero();
@@ -106,7 +112,7 @@ std::bitset<kMaxEllipses> separate_close_edges(EllipseWorkspace& workspace) {
       const bool first_is_outer = found[i].ellipse.a_px > found[j].ellipse.a_px;
       DetectedEllipse &outer = first_is_outer ? found[i] : found[j], &inner = first_is_outer ? found[j] : found[i];
       if (!are_close(outer.ellipse, inner.ellipse)) continue;
-      separate(outer, inner);
+      separate(outer, inner, workspace);
       separated[i] = separated[j] = true;
     }
   }
