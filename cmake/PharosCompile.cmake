@@ -26,6 +26,10 @@ if(NOT PHAROS_SANITIZE AND NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
     $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>)
 endif()
 
+# Code that runs seldom or for a short time: tests, options, files, messages. GCC 12 compiles commands with -Og in 0.67 of
+# the time of -O1, tests in 0.83, and rooms of the host in 0.63 of the time of -O3. Results do not change.
+set(PHAROS_COLD_OPTIONS $<$<CONFIG:Release>:-Og>)
+
 # The build type of the sanitizer presets: assertions on, enough optimisation for Eigen, line numbers in reports.
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1")
 if(PHAROS_SANITIZE)
@@ -123,8 +127,8 @@ function(pharos_core_library name)
     target_compile_options(${name}_12 PRIVATE ${PHAROS_12_OPTIONS})  # its code is in external memory: size matters less
     pharos_reads_headers(${name}_12 core_12)
     list(APPEND libraries ${name}_12)
-    # This one is in no image, but in programs that test the core: compiled as fast as on the host.
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ON)
+    # Several files as one, as on the host: half of the time of a room with many files.
+    set_target_properties(${libraries} PROPERTIES UNITY_BUILD ON)
   endif()
   foreach(library IN LISTS libraries)
     target_include_directories(${library} PUBLIC ${PROJECT_SOURCE_DIR}/common)
@@ -147,24 +151,29 @@ function(pharos_module name)
   install(FILES $<TARGET_FILE:${name}> DESTINATION lib/pharos)
 endfunction()
 
-# pharos_host_library(NAME SOURCES...): a room of the host or of the tools.
+# pharos_host_library(NAME [COLD] SOURCES...): a room of the host or of the tools. COLD is for code that reads, writes and
+# calls: optimising it takes longer than running it, and what computes is in the rooms that it calls.
 set(PHAROS_HOST_HEADERS <Eigen/Dense> <chrono> <functional> <map> <optional> <sstream> <string> <unordered_map> <vector>)
 pharos_headers(host HEADERS ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen)
+pharos_headers(cold HEADERS ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen OPTIONS ${PHAROS_COLD_OPTIONS})
 function(pharos_host_library name)
-  add_library(${name} STATIC ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "" ${ARGN})
+  add_library(${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE pharos_warnings)
-  pharos_reads_headers(${name} host)
+  if(ARG_COLD)
+    target_compile_options(${name} PRIVATE ${PHAROS_COLD_OPTIONS})
+    pharos_reads_headers(${name} cold)
+  else()
+    pharos_reads_headers(${name} host)
+  endif()
 endfunction()
 
-# pharos_command_library(NAME SOURCES...): a subcommand's options and the sequence of its steps. Compiled with -O1, because
-# optimising CLI11's templates takes longer than running them; computations are in the rooms that it calls.
-set(PHAROS_COMMAND_OPTIONS $<$<CONFIG:Release>:-O1>)
+# pharos_command_library(NAME SOURCES...): a subcommand's options and the sequence of its steps. Cold.
 if(PHAROS_BUILD_HOST)
-  pharos_headers(command HEADERS <CLI/CLI.hpp> ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen OPTIONS ${PHAROS_COMMAND_OPTIONS})
+  pharos_headers(command HEADERS <CLI/CLI.hpp> ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen OPTIONS ${PHAROS_COLD_OPTIONS})
 endif()
 function(pharos_command_library name)
-  pharos_host_library(${name} ${ARGN})
-  target_compile_options(${name} PRIVATE ${PHAROS_COMMAND_OPTIONS})
+  pharos_host_library(${name} COLD ${ARGN})
   pharos_reads_headers(${name} command)
 endfunction()
 

@@ -9,9 +9,8 @@ set(PHAROS_FUZZ_SECONDS 180 CACHE STRING "How long each libFuzzer target runs in
 
 # Test code runs once per build, so that full optimisation would cost more time than it saves. The tested code keeps its
 # flags.
-set(PHAROS_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 pharos_headers(test HEADERS <gmock/gmock.h> <gtest/gtest.h> <Eigen/Geometry>
-  LIBS Eigen3::Eigen GTest::gtest GTest::gmock OPTIONS ${PHAROS_TEST_OPTIONS})
+  LIBS Eigen3::Eigen GTest::gtest GTest::gmock OPTIONS ${PHAROS_COLD_OPTIONS})
 
 # pharos_test(NAME [LABEL label] [TIMEOUT seconds] SOURCES files... [PROPERTY files...] [FAULT files...] LIBS libraries...):
 # one GoogleTest program per room; each suite is a ctest entry NAME.Suite (discover_tests.py). LABEL is that of SOURCES:
@@ -39,7 +38,7 @@ function(pharos_test name)
   add_executable(${name} ${ARG_SOURCES} ${ARG_PROPERTY} ${ARG_FAULT})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} pharos_warnings GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR})
-  target_compile_options(${name} PRIVATE ${PHAROS_TEST_OPTIONS})
+  target_compile_options(${name} PRIVATE ${PHAROS_COLD_OPTIONS})
   pharos_reads_headers(${name} test)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests"
     LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/discover_tests.py)
