@@ -102,6 +102,7 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["unreadable"] = figures.unreadable;
   json["without_partner"] = figures.without_partner;
   json["scene"] = name_of(report.scene);
+  json["steady_rotation"] = report.steady_rotation;
   json["keyframes"] = report.keyframes;
   json["keyframes_made"] = report.keyframes_made;
   json["points"] = report.points;

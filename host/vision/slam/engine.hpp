@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "host/vision/slam/final_adjustment.hpp"
 #include "host/vision/slam/keyframe_worker.hpp"
 #include "host/vision/slam/loop_closing.hpp"
 #include "host/vision/slam/pair_order.hpp"
@@ -43,7 +44,7 @@ class Engine final : public SlamSystem {
  private:
   void check_threads() const;
   void wait_for_threads() const;
-  Map adjusted(Map map) const;
+  std::optional<SteadyRotation> adjust_map(Map& map) const;
   TrackedPose pose_of(const Tracked& tracked) const;
   TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen, KeyframeId& made);
   KeyframeId make_keyframe(Frame& frame);
@@ -67,6 +68,7 @@ class Engine final : public SlamSystem {
   std::vector<PointId> recent_;
   std::map<KeyframeId, PyramidCopy> kept_;  // images of keyframes that loop closing has not seen yet
   double last_keyframe_s_ = 0.0;
+  std::optional<SteadyRotation> steady_;  // of the last adjustment, until the next pair
   PairOrder order_;
   PairSkew skew_;
 

@@ -23,6 +23,7 @@ struct SlamReport {
   int dark = 0, saturated = 0;  ///< frames too dark or too bright for any feature
   Scene scene = Scene::kAuto;   ///< that of the map, or, before it, of the last pair
   int keyframes = 0, keyframes_made = 0, points = 0;
+  bool steady_rotation = false;  ///< the last adjustment took the rotation as steady (SlamSettings::steady_rotation)
   int loops = 0, loops_refused = 0;  ///< refused: keyframes of which no candidate closed a loop
   LoopCounts loop_candidates;
   double features_median = 0.0, inliers_median = 0.0;
