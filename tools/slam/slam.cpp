@@ -149,7 +149,7 @@ int run(Options options) {
   }
   const int rows = write_poses({options.poses, options.output == "camera"}, trajectory);
   if (!options.map.empty()) write_map_ply(options.map, system->points());
-  if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory, figures);
+  if (!options.report.empty()) write_slam_report(options.report, *system, figures);
   if (rows == 0 && !feeder.input().nothing_read()) {
     note(options.names.left + ": no frame could be placed: " + std::to_string(system->report().frames) +
          " pairs, none with enough stereo features");

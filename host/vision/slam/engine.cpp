@@ -53,26 +53,41 @@ void Engine::wait_for_threads() const {
   check_threads();
 }
 
-std::optional<SteadyRotation> Engine::adjust_map(Map& map) const {
+FinalAdjustment Engine::adjust_map(Map& map) const {
   const bool try_steady = settings_.steady_rotation && frontend_.scene() == Scene::kTarget;
-  const FinalAdjustment solution = adjust_finally(map, frontend_.camera(), try_steady);
+  FinalAdjustment solution = adjust_finally(map, frontend_.camera(), try_steady);
   apply_global(solution.problem, solution.rejected, map);
   apply_covariances(solution.covariances, map);
-  return solution.steady;
+  return solution;
+}
+
+std::optional<Spin> Engine::spin_of(const FinalAdjustment& solution) const {
+  if (!solution.steady) return std::nullopt;
+  const Matrix3& R = frontend_.R_left_rectified();
+  std::vector<TrackedFrame> free;
+  for (const auto& [id, pose] : solution.free) {
+    free.emplace_back();
+    free.back().time_s = map_.keyframes.at(id).time_s;
+    free.back().placed = in_left_frame({pose, Matrix6::Zero(), 0.0}, R);
+  }
+  const auto fit = fit_spin(free);
+  return fit ? std::optional(steady_spin(R * solution.steady->rate_rad_s, *fit)) : std::nullopt;
 }
 
 void Engine::finish() {
   wait_for_threads();
   const std::lock_guard lock(mutex_);
   if (map_.keyframes.size() < 2) return;
-  steady_ = adjust_map(map_);
+  const FinalAdjustment solution = adjust_map(map_);
+  steady_ = solution.steady;
+  steady_spin_ = spin_of(solution);
 }
 
 std::vector<TrackedFrame> Engine::optimised_trajectory() const {
   wait_for_threads();
   const std::lock_guard lock(mutex_);
   Map map = map_;
-  const auto steady = map.keyframes.size() < 2 ? std::nullopt : adjust_map(map);
+  const auto steady = map.keyframes.size() < 2 ? std::nullopt : adjust_map(map).steady;
   return log_.frames(map, frontend_.R_left_rectified(), steady ? &*steady : nullptr);
 }
 
@@ -122,6 +137,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
   out.features = static_cast<int>(frame.features.size());
   const std::lock_guard lock(mutex_);
   steady_.reset();
+  steady_spin_.reset();
   Matrix6 own = Matrix6::Zero();
   if (map_.keyframes.empty()) {
     if (seen.stats.matched >= kMinStart) {
@@ -275,6 +291,14 @@ void Engine::close_loop(KeyframeId id) {
 std::vector<TrackedFrame> Engine::trajectory() const {
   const std::lock_guard lock(mutex_);
   return log_.frames(map_, frontend_.R_left_rectified(), steady_ ? &*steady_ : nullptr);
+}
+
+std::optional<Spin> Engine::spin() const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (steady_) return steady_spin_;
+  }
+  return fit_spin(trajectory());
 }
 
 std::vector<SlamPoint> Engine::points() const {

@@ -21,7 +21,7 @@ KeyframePoses poses_on(const SteadyRotation& rotation, const std::map<KeyframeId
 bool take_steady_rotation(const std::map<KeyframeId, double>& times_s, const StereoCamera& camera,
                           FinalAdjustment& solution) {
   if (solution.problem.poses.size() < kMinSteadyKeyframes) return false;
-  const KeyframePoses free = solution.problem.poses;
+  KeyframePoses free = solution.problem.poses;
   const KeyframePoses start = poses_on(mean_rotation(free, times_s), times_s, free);
   if (!(max_deviation(free, start, solution.covariances) <= kMaxStartDeviation)) return false;
   BundleProblem steady = solution.problem;
@@ -32,6 +32,7 @@ bool take_steady_rotation(const std::map<KeyframeId, double>& times_s, const Ste
   solution.problem = std::move(steady);
   solution.rejected = std::move(rejected);
   solution.steady = rotation;
+  solution.free = std::move(free);
   return true;
 }
 

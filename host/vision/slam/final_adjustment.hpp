@@ -15,6 +15,7 @@ struct FinalAdjustment {
   std::vector<std::size_t> rejected;     ///< observations' numbers
   KeyframeCovariances covariances;       ///< relative to the first keyframe
   std::optional<SteadyRotation> steady;  ///< on which all attitudes are
+  KeyframePoses free;                    ///< where they are: the poses without it
 };
 
 /// Takes the rotation as steady where no attitude of a solution without it contradicts it (max_deviation); false, and

@@ -128,4 +128,13 @@ std::optional<Spin> fit_spin(const std::vector<TrackedFrame>& frames) {
   return spin;
 }
 
+Spin steady_spin(const Vector3& rate_rad_s, const Spin& fit) {
+  Spin out = fit;
+  const Vector3 off = rate_rad_s - fit.rate_rad_s;
+  out.rate_rad_s = rate_rad_s;
+  out.covariance += off * off.transpose();
+  out.turned_rad *= rate_rad_s.norm() / fit.rate();
+  return out;
+}
+
 }  // namespace pharos::slam

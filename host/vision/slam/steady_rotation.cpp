@@ -72,6 +72,19 @@ class SteadyReprojection : public ceres::CostFunction {
   double since_first_s_;
 };
 
+// rho(s) = s / (1 + s / scale) of a chi-squared s (Geman and McClure 1987): far ones do not pull at all. The scale is
+// that of chi-squared with three degrees of freedom.
+class GemanMcClureLoss : public ceres::LossFunction {
+ public:
+  void Evaluate(double s, double* rho) const override {
+    constexpr double kScale = 3.0;
+    const double weight = 1.0 / (1.0 + s / kScale);
+    rho[0] = s * weight;
+    rho[1] = weight * weight;
+    rho[2] = -2.0 * weight * weight * weight / kScale;
+  }
+};
+
 class SteadyBundle {
  public:
   SteadyBundle(const BundleProblem& problem, const std::map<KeyframeId, double>& times_s, const StereoCamera& camera)
@@ -94,10 +107,9 @@ class SteadyBundle {
   Vector3 place_of(KeyframeId id) const { return Vector3(blocks_.places.at(id)); }
   Vector3 point_of(PointId id) const { return Vector3(blocks_.points.at(id)); }
 
-  void solve(int iterations, const std::vector<bool>& use) {
+  void solve(int iterations, const std::vector<bool>& use, ceres::LossFunction& loss) {
     ceres::Problem::Options options;
     options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::HuberLoss loss(std::sqrt(kHuberChi2));
     ceres::Problem ceres(options);
     for (std::size_t k = 0; k < problem_.observations.size(); ++k) {
       const BundleObservation& observation = problem_.observations[k];
@@ -173,13 +185,24 @@ SteadyRotation adjust_steady_rotation(BundleProblem& problem, const std::map<Key
                                       const StereoCamera& camera, int iterations, std::vector<std::size_t>& rejected) {
   SteadyBundle bundle(problem, times_s, camera);
   std::vector<bool> use;
-  for (const BundleObservation& observation : problem.observations) use.push_back(bundle.is_in_front(observation));
-  bundle.solve(iterations, use);
-  for (std::size_t k = 0; k < use.size(); ++k) use[k] = bundle.accepts(problem.observations[k]);
-  bundle.solve(iterations, use);
+  const auto use_where = [&](auto&& is_usable) {
+    use.clear();
+    for (const BundleObservation& observation : problem.observations) use.push_back(is_usable(observation));
+  };
+  const auto is_in_front = [&](const BundleObservation& o) { return bundle.is_in_front(o); };
+  const auto is_accepted = [&](const BundleObservation& o) { return bundle.accepts(o); };
+  ceres::HuberLoss huber(std::sqrt(kHuberChi2));
+  use_where(is_in_front);
+  bundle.solve(iterations, use, huber);
+  use_where(is_accepted);
+  bundle.solve(iterations, use, huber);
+  GemanMcClureLoss redescending;
+  use_where(is_in_front);
+  bundle.solve(iterations, use, redescending);
+  use_where(is_accepted);
   rejected.clear();
   for (std::size_t k = 0; k < use.size(); ++k) {
-    if (!use[k] && !bundle.accepts(problem.observations[k])) rejected.push_back(k);
+    if (!use[k]) rejected.push_back(k);
   }
   const SteadyRotation out = bundle.rotation();
   for (auto& [id, pose] : problem.poses) pose = {out.R_at(times_s.at(id)), bundle.place_of(id)};

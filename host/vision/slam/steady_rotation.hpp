@@ -36,7 +36,8 @@ SteadyRotation mean_rotation(const KeyframePoses& poses, const std::map<Keyframe
 
 /// (12) with all attitudes on R(t), in place, as adjust_bundle: unknowns are the rate, the positions of all keyframes
 /// but the first, and the points. `problem` is the solution without the hypothesis, `times_s` has every keyframe.
-/// Sets the numbers of the rejected observations.
+/// Huber's cost, then without observations that chi-squared rejects, then Geman's and McClure's: points that slide fit
+/// free attitudes, which follow them, and do not fit these. Sets the numbers of the rejected observations.
 SteadyRotation adjust_steady_rotation(BundleProblem& problem, const std::map<KeyframeId, double>& times_s,
                                       const StereoCamera& camera, int iterations, std::vector<std::size_t>& rejected);
 

@@ -117,7 +117,7 @@ TEST_F(SlamOfATurn, FollowsTheAttitude) {
   EXPECT_EQ(report.tracked, kFrames);
   EXPECT_GE(report.keyframes, 2);
   EXPECT_EQ(slam->points().size(), static_cast<std::size_t>(report.points));
-  const auto spin = fit_spin(trajectory);
+  const auto spin = slam->spin();
   ASSERT_TRUE(spin);
   EXPECT_NEAR(kDegrees * spin->rate(), 20.0, 0.3);
   const Vector3 axis = footage().sequence.pose(0).R.col(2);
@@ -189,6 +189,12 @@ TEST_F(SlamOfATurn, IsTakenAsSteadyUnlessToldNotTo) {
     double uneven_rad = 0.0;
     for (std::size_t k = 2; k < frames.size(); ++k) uneven_rad = std::max(uneven_rad, (step(k) - step(1)).norm());
     EXPECT_EQ(uneven_rad < 1e-9, may_be);
+    // What a fit to steady attitudes would state is nothing.
+    const auto spin = slam->spin();
+    ASSERT_TRUE(spin);
+    EXPECT_GT(spin->sigma_rate_rad_s(), 1e-7);
+    EXPECT_LT(std::abs(spin->rate() - 5.0 / kDegrees), 4.0 * spin->sigma_rate_rad_s());
+    EXPECT_EQ((spin->rate_rad_s - 5.0 * step(1)).norm() < 1e-9, may_be);
     if (!may_be) continue;
     push(*slam, 4 * 40, 40);
     EXPECT_FALSE(slam->report().steady_rotation) << "until it is adjusted again";
