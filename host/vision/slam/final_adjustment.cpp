@@ -28,6 +28,9 @@ bool take_steady_rotation(const std::map<KeyframeId, double>& times_s, const Ste
   std::vector<std::size_t> rejected;
   const SteadyRotation rotation = adjust_steady_rotation(steady, times_s, camera, kSteps, rejected);
   if (!(max_deviation(free, steady.poses, solution.covariances) <= kMaxSteadyDeviation)) return false;
+  const double freedom = 3.0 * (static_cast<double>(free.size()) - 2.0);  // attitudes but the first, without the rate
+  const double expected = freedom * solution.covariances.correlation_factor;
+  if (!(rotation.cost_increase <= kMaxSteadyCostRatio * expected)) return false;
   add_deviations(free, steady.poses, solution.covariances);
   solution.problem = std::move(steady);
   solution.rejected = std::move(rejected);

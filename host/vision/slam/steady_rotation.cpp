@@ -72,6 +72,15 @@ class SteadyReprojection : public ceres::CostFunction {
   double since_first_s_;
 };
 
+double huber_cost(const Observation& seen, const Vector3& point_m, const CameraFromTarget& pose,
+                  const StereoCamera& camera) {
+  if (!in_front(pose, point_m)) return 0.0;
+  Observation at = seen;
+  at.point_m = point_m;
+  const double chi2 = residual_of(at, camera, pose).squaredNorm() / at.variance_px2;
+  return chi2 > kHuberChi2 ? 2.0 * std::sqrt(kHuberChi2 * chi2) - kHuberChi2 : chi2;
+}
+
 // rho(s) = s / (1 + s / scale) of a chi-squared s (Geman and McClure 1987): far ones do not pull at all. The scale is
 // that of chi-squared with three degrees of freedom.
 class GemanMcClureLoss : public ceres::LossFunction {
@@ -99,7 +108,7 @@ class SteadyBundle {
   }
 
   SteadyRotation rotation() const {
-    SteadyRotation out{Vector3(blocks_.numbers.data()), times_s_.at(first_), R_first_, Vector3::Zero()};
+    SteadyRotation out{Vector3(blocks_.numbers.data()), times_s_.at(first_), R_first_, Vector3::Zero(), 0.0};
     for (const auto& [id, block] : blocks_.points) out.middle_m += Vector3(block);
     out.middle_m /= static_cast<double>(std::max<std::size_t>(1, blocks_.points.size()));
     return out;
@@ -135,6 +144,15 @@ class SteadyBundle {
   }
 
   bool is_in_front(const BundleObservation& o) const { return in_front(pose_of(o.keyframe), point_of(o.point)); }
+  // From the problem's poses and points.
+  double cost_increase() const {
+    double sum = 0.0;
+    for (const BundleObservation& o : problem_.observations) {
+      sum += huber_cost(o.seen, point_of(o.point), pose_of(o.keyframe), camera_) -
+             huber_cost(o.seen, problem_.points.at(o.point), problem_.poses.at(o.keyframe), camera_);
+    }
+    return sum;
+  }
   bool accepts(const BundleObservation& o) const {
     return fits(o.seen, point_of(o.point), pose_of(o.keyframe), camera_);
   }
@@ -196,6 +214,7 @@ SteadyRotation adjust_steady_rotation(BundleProblem& problem, const std::map<Key
   bundle.solve(iterations, use, huber);
   use_where(is_accepted);
   bundle.solve(iterations, use, huber);
+  const double cost_increase = bundle.cost_increase();
   GemanMcClureLoss redescending;
   use_where(is_in_front);
   bundle.solve(iterations, use, redescending);
@@ -204,7 +223,8 @@ SteadyRotation adjust_steady_rotation(BundleProblem& problem, const std::map<Key
   for (std::size_t k = 0; k < use.size(); ++k) {
     if (!use[k]) rejected.push_back(k);
   }
-  const SteadyRotation out = bundle.rotation();
+  SteadyRotation out = bundle.rotation();
+  out.cost_increase = cost_increase;
   for (auto& [id, pose] : problem.poses) pose = {out.R_at(times_s.at(id)), bundle.place_of(id)};
   for (auto& [id, point] : problem.points) point = bundle.point_of(id);
   return out;

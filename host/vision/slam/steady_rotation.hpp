@@ -17,6 +17,7 @@ struct SteadyRotation {
   double first_s = 0.0;                  ///< of the first keyframe
   Matrix3 R_first = Matrix3::Identity();
   Vector3 middle_m = Vector3::Zero();  ///< of the points, in the target's frame
+  double cost_increase = 0.0;          ///< of Huber's cost, over all observations, from the solution without it
 
   Matrix3 R_at(double time_s) const { return rotation_exp(rate_rad_s * (time_s - first_s)) * R_first; }
   /// The pose with the attitude of the time; the points' middle stays where it is in the camera's frame.
@@ -28,6 +29,9 @@ inline constexpr std::size_t kMinSteadyKeyframes = 10;
 /// It is contradicted where an attitude of the adjustment without it is further off, in sigmas (max_deviation): stated
 /// sigmas are up to three times too small (README). Of eleven random bodies that do turn so it was 2.2 to 4.6.
 inline constexpr double kMaxSteadyDeviation = 6.0;
+/// Or where its cost increases by more than so many times what is expected, a degree of freedom each and the
+/// correlation factor of the covariances: 0.8 to 1.1 over four random bodies and a satellite that do turn so.
+inline constexpr double kMaxSteadyCostRatio = 1.5;
 
 using KeyframePoses = std::map<KeyframeId, CameraFromTarget>;
 
