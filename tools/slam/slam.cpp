@@ -33,6 +33,8 @@ constexpr const char* kExample =
     "pose, which is exact. --scene auto says on standard error which scene it is: target where the background is dark "
     "all around,\n"
     "else static: nothing is masked, the camera moves; --output camera tells its path.\n"
+    "--rotation auto says so too where it takes a target's rotation as steady; sigmas are then those without it, and\n"
+    "what it moves.\n"
     "Images: PNG, TIFF, PGM or PPM of 8 or 16 bits (of which the upper 8 count, unless enhanced), JPEG or BMP; of "
     "colour\n"
     "the luma. One without partner, a pair that cannot be read or is of another size is told, counted and left out.\n"
@@ -41,7 +43,7 @@ constexpr const char* kExample =
 struct Options {
   PairChoice names;
   std::string rig;
-  std::string scene = "auto", output = "target";
+  std::string scene = "auto", output = "target", rotation = "auto";
   OutputOptions poses;
   std::string report, map, overlay;
   bool no_loops = false, threads = false;
@@ -123,6 +125,7 @@ int run(Options options) {
   require_place_for_covariance(options.poses);
   options.settings.scene = slam::scene_named(options.scene);
   options.settings.close_loops = !options.no_loops;
+  options.settings.steady_rotation = options.rotation == "auto";
   options.settings.threads = options.threads;
   for (const std::string& file : {options.report, options.map, options.poses.path}) {
     if (!file.empty()) require_writable(file);
@@ -140,9 +143,13 @@ int run(Options options) {
   }
   system->finish();
   const std::vector<slam::TrackedFrame> trajectory = system->trajectory();
+  if (system->report().steady_rotation) {
+    note(
+        "rotation: steady (no attitude contradicts a constant rate about a fixed axis; --rotation free is without it)");
+  }
   const int rows = write_poses({options.poses, options.output == "camera"}, trajectory);
   if (!options.map.empty()) write_map_ply(options.map, system->points());
-  if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory, figures);
+  if (!options.report.empty()) write_slam_report(options.report, *system, figures);
   if (rows == 0 && !feeder.input().nothing_read()) {
     note(options.names.left + ": no frame could be placed: " + std::to_string(system->report().frames) +
          " pairs, none with enough stereo features");
@@ -169,6 +176,12 @@ void add_slam(CLI::App& app, int& exit_code) {
           "--scene", options->scene,
           "auto (default): as the pictures show; target: a body before dark or stillness; static: all of the image")
       ->check(CLI::IsMember({"auto", "target", "static"}));
+  command
+      ->add_option(
+          "--rotation", options->rotation,
+          "Of a target: auto (default): at a constant rate about a fixed axis where no attitude contradicts it; "
+          "free: any")
+      ->check(CLI::IsMember({"auto", "free"}));
   command
       ->add_option("--output", options->output,
                    "Poses of the target in the camera (default), or of the camera in the scene")

@@ -88,8 +88,8 @@ void note_quarter(std::size_t done, std::size_t all, RunFigures& figures) {
   figures.memory.push_back({done, host::process_usage().resident_kib});
 }
 
-void write_slam_report(const std::string& path, const slam::SlamReport& report,
-                       const std::vector<slam::TrackedFrame>& trajectory, const RunFigures& figures) {
+void write_slam_report(const std::string& path, const slam::SlamSystem& system, const RunFigures& figures) {
+  const slam::SlamReport report = system.report();
   nlohmann::ordered_json json;
   json["frames"] = report.frames;
   json["tracked"] = report.tracked;
@@ -102,6 +102,7 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["unreadable"] = figures.unreadable;
   json["without_partner"] = figures.without_partner;
   json["scene"] = name_of(report.scene);
+  json["steady_rotation"] = report.steady_rotation;
   json["keyframes"] = report.keyframes;
   json["keyframes_made"] = report.keyframes_made;
   json["points"] = report.points;
@@ -123,14 +124,14 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["loop_max_ms"] = report.loop_max_ms;
   json["light_median_ms"] = median(figures.light_ms);
   json["to_pose_median_ms"] = median(figures.to_pose_ms);
-  add_sigmas(json, trajectory);
+  add_sigmas(json, system.trajectory());
   for (const MemoryAt& at : figures.memory) {
     json["memory"].push_back({{"pair", at.pair}, {"resident_mib", static_cast<double>(at.resident_kib) / 1024.0}});
   }
   std::int64_t peak_kib = host::process_usage().peak_resident_kib;  // the kernel updates it with a delay
   for (const MemoryAt& at : figures.memory) peak_kib = std::max(peak_kib, at.resident_kib);
   json["memory_peak_mib"] = static_cast<double>(peak_kib) / 1024.0;
-  if (const auto spin = slam::fit_spin(trajectory)) json["spin"] = spin_json(*spin);
+  if (const auto spin = system.spin()) json["spin"] = spin_json(*spin);
   host::write_file(path, json.dump(2) + '\n');
 }
 

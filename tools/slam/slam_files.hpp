@@ -35,8 +35,7 @@ struct RunFigures {
 void note_quarter(std::size_t done, std::size_t all, RunFigures& figures);
 
 /// Figures of a run as one JSON object. Throws InputError where it cannot be written.
-void write_slam_report(const std::string& path, const slam::SlamReport& report,
-                       const std::vector<slam::TrackedFrame>& trajectory, const RunFigures& figures);
+void write_slam_report(const std::string& path, const slam::SlamSystem& system, const RunFigures& figures);
 
 /// DIR/STEM_slam.png: features of the last pair (mono, stereo, of the map) over the rectified left image, masked areas
 /// tinted.

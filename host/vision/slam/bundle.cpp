@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/slam/bundle.hpp"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <set>
 
+#include "host/vision/slam/bundle_solver.hpp"
 #include "host/vision/slam/pose_blocks.hpp"
 #include "host/vision/slam/reprojection_cost.hpp"
 
@@ -64,28 +63,17 @@ void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& cam
   for (const auto& [id, block] : blocks.points) {
     if (ceres.HasParameterBlock(block)) ordering->AddElementToGroup(block, 0);
   }
-  ceres::Solver::Options solver;
-  solver.linear_solver_ordering.reset(ordering);
-  solver.linear_solver_type = moving <= 40 ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
-  solver.max_num_iterations = iterations;
-  solver.function_tolerance = 1e-5;
-  solver.num_threads = 1;
-  solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(solver, &ceres, &summary);
+  ceres::Solve(bundle_options(ordering, moving, iterations), &ceres, &summary);
 }
 
-bool in_front(const BundleObservation& observation, const Blocks& blocks) {
-  const CameraFromTarget pose = slam::pose_of(blocks.poses.at(observation.keyframe));
-  return (pose * Vector3(blocks.points.at(observation.point))).z() > kMinDepth_m;
+bool is_in_front(const BundleObservation& observation, const Blocks& blocks) {
+  return in_front(slam::pose_of(blocks.poses.at(observation.keyframe)), Vector3(blocks.points.at(observation.point)));
 }
 
-bool fits(const BundleObservation& observation, const Blocks& blocks, const StereoCamera& camera) {
-  if (!in_front(observation, blocks)) return false;
-  Observation at = observation.seen;
-  at.point_m = Vector3(blocks.points.at(observation.point));
-  const CameraFromTarget pose = slam::pose_of(blocks.poses.at(observation.keyframe));
-  return residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= (at.stereo() ? kStereoChi2 : kMonoChi2);
+bool is_accepted(const BundleObservation& observation, const Blocks& blocks, const StereoCamera& camera) {
+  return fits(observation.seen, Vector3(blocks.points.at(observation.point)),
+              slam::pose_of(blocks.poses.at(observation.keyframe)), camera);
 }
 
 void add_observations(const Map& map, BundleProblem& problem, const std::set<KeyframeId>& moving) {
@@ -104,6 +92,27 @@ void add_observations(const Map& map, BundleProblem& problem, const std::set<Key
 }
 
 }  // namespace
+
+ceres::Solver::Options bundle_options(ceres::ParameterBlockOrdering* ordering, std::size_t moving_poses,
+                                      int iterations) {
+  ceres::Solver::Options options;
+  options.linear_solver_ordering.reset(ordering);
+  options.linear_solver_type = moving_poses <= 40 ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = 1e-5;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+bool in_front(const CameraFromTarget& pose, const Vector3& point_m) { return (pose * point_m).z() > kMinDepth_m; }
+
+bool fits(const Observation& seen, const Vector3& point_m, const CameraFromTarget& pose, const StereoCamera& camera) {
+  if (!in_front(pose, point_m)) return false;
+  Observation at = seen;
+  at.point_m = point_m;
+  return residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= (at.stereo() ? kStereoChi2 : kMonoChi2);
+}
 
 BundleProblem local_problem(const Map& map, KeyframeId keyframe, std::size_t max_keyframes) {
   std::set<KeyframeId> moving{keyframe};
@@ -133,15 +142,15 @@ std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamer
   Blocks blocks(problem);
   // A single point that starts behind a camera would make the adjustment fail at its first step.
   std::vector<bool> use;
-  for (const BundleObservation& observation : problem.observations) use.push_back(in_front(observation, blocks));
+  for (const BundleObservation& observation : problem.observations) use.push_back(is_in_front(observation, blocks));
   std::vector<std::size_t> rejected;
   solve(problem, blocks, camera, iterations, use);
   for (std::size_t k = 0; k < use.size(); ++k) {
-    use[k] = fits(problem.observations[k], blocks, camera);
+    use[k] = is_accepted(problem.observations[k], blocks, camera);
   }
   solve(problem, blocks, camera, iterations, use);
   for (std::size_t k = 0; k < use.size(); ++k) {
-    if (!use[k] && !fits(problem.observations[k], blocks, camera)) rejected.push_back(k);
+    if (!use[k] && !is_accepted(problem.observations[k], blocks, camera)) rejected.push_back(k);
   }
   for (auto& [id, pose] : problem.poses) {
     if (!problem.fixed.at(id)) pose = slam::pose_of(blocks.poses.at(id));

@@ -7,6 +7,7 @@
 #include "host/cameras/pair_order.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/slam/bundle.hpp"
+#include "host/vision/slam/final_adjustment.hpp"
 #include "host/vision/slam/keyframe_covariance.hpp"
 #include "host/vision/slam/mapping.hpp"
 
@@ -22,7 +23,6 @@ constexpr double kMapping_s = 0.19;            // of a keyframe: 0.2, so that fo
 constexpr std::size_t kMaxWaiting = 3;         // keyframes, as in ORB-SLAM2
 constexpr std::size_t kMaxKeptImages = 8;      // a loop of a keyframe whose image is gone is measured by corners
 constexpr int kGlobalSteps = 12;               // while tracking continues
-constexpr int kFinalSteps = 40;
 
 }  // namespace
 
@@ -53,25 +53,42 @@ void Engine::wait_for_threads() const {
   check_threads();
 }
 
-Map Engine::adjusted(Map map) const {
-  if (map.keyframes.size() < 2) return map;
-  BundleProblem problem = global_problem(map);
-  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), kFinalSteps);
-  apply_global(problem, rejected, map);
-  apply_covariances(keyframe_covariances(problem, rejected, frontend_.camera(), map.keyframes.begin()->first), map);
-  return map;
+FinalAdjustment Engine::adjust_map(Map& map) const {
+  const bool try_steady = settings_.steady_rotation && frontend_.scene() == Scene::kTarget;
+  FinalAdjustment solution = adjust_finally(map, frontend_.camera(), try_steady);
+  apply_global(solution.problem, solution.rejected, map);
+  apply_covariances(solution.covariances, map);
+  return solution;
+}
+
+std::optional<Spin> Engine::spin_of(const FinalAdjustment& solution) const {
+  if (!solution.steady) return std::nullopt;
+  const Matrix3& R = frontend_.R_left_rectified();
+  std::vector<TrackedFrame> free;
+  for (const auto& [id, pose] : solution.free) {
+    free.emplace_back();
+    free.back().time_s = map_.keyframes.at(id).time_s;
+    free.back().placed = in_left_frame({pose, Matrix6::Zero(), 0.0}, R);
+  }
+  const auto fit = fit_spin(free);
+  return fit ? std::optional(steady_spin(R * solution.steady->rate_rad_s, *fit)) : std::nullopt;
 }
 
 void Engine::finish() {
   wait_for_threads();
   const std::lock_guard lock(mutex_);
-  map_ = adjusted(std::move(map_));
+  if (map_.keyframes.size() < 2) return;
+  const FinalAdjustment solution = adjust_map(map_);
+  steady_ = solution.steady;
+  steady_spin_ = spin_of(solution);
 }
 
 std::vector<TrackedFrame> Engine::optimised_trajectory() const {
   wait_for_threads();
   const std::lock_guard lock(mutex_);
-  return log_.frames(adjusted(map_), frontend_.R_left_rectified());
+  Map map = map_;
+  const auto steady = map.keyframes.size() < 2 ? std::nullopt : adjust_map(map).steady;
+  return log_.frames(map, frontend_.R_left_rectified(), steady ? &*steady : nullptr);
 }
 
 // Motion in rows of a frame's points since the frame before, and row difference of left and right.
@@ -119,6 +136,8 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
   out.time_s = frame.time_s;
   out.features = static_cast<int>(frame.features.size());
   const std::lock_guard lock(mutex_);
+  steady_.reset();
+  steady_spin_.reset();
   Matrix6 own = Matrix6::Zero();
   if (map_.keyframes.empty()) {
     if (seen.stats.matched >= kMinStart) {
@@ -271,7 +290,15 @@ void Engine::close_loop(KeyframeId id) {
 
 std::vector<TrackedFrame> Engine::trajectory() const {
   const std::lock_guard lock(mutex_);
-  return log_.frames(map_, frontend_.R_left_rectified());
+  return log_.frames(map_, frontend_.R_left_rectified(), steady_ ? &*steady_ : nullptr);
+}
+
+std::optional<Spin> Engine::spin() const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (steady_) return steady_spin_;
+  }
+  return fit_spin(trajectory());
 }
 
 std::vector<SlamPoint> Engine::points() const {
@@ -294,6 +321,7 @@ SlamReport Engine::report() const {
   out.keyframes = static_cast<int>(map_.keyframes.size());
   out.points = static_cast<int>(map_.points.size());
   out.scene = frontend_.scene();
+  out.steady_rotation = steady_.has_value();
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "host/vision/slam/final_adjustment.hpp"
 #include "host/vision/slam/keyframe_worker.hpp"
 #include "host/vision/slam/loop_closing.hpp"
 #include "host/vision/slam/pair_order.hpp"
@@ -33,6 +34,7 @@ class Engine final : public SlamSystem {
   void finish() override;
   std::vector<TrackedFrame> trajectory() const override;
   std::vector<TrackedFrame> optimised_trajectory() const override;
+  std::optional<Spin> spin() const override;
   std::vector<SlamPoint> points() const override;
   std::vector<ClosedLoop> loops() const override;
   SlamReport report() const override;
@@ -43,7 +45,8 @@ class Engine final : public SlamSystem {
  private:
   void check_threads() const;
   void wait_for_threads() const;
-  Map adjusted(Map map) const;
+  FinalAdjustment adjust_map(Map& map) const;
+  std::optional<Spin> spin_of(const FinalAdjustment& solution) const;
   TrackedPose pose_of(const Tracked& tracked) const;
   TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen, KeyframeId& made);
   KeyframeId make_keyframe(Frame& frame);
@@ -67,6 +70,9 @@ class Engine final : public SlamSystem {
   std::vector<PointId> recent_;
   std::map<KeyframeId, PyramidCopy> kept_;  // images of keyframes that loop closing has not seen yet
   double last_keyframe_s_ = 0.0;
+  // Of the last adjustment, until the next pair.
+  std::optional<SteadyRotation> steady_;
+  std::optional<Spin> steady_spin_;
   PairOrder order_;
   PairSkew skew_;
 

@@ -25,6 +25,9 @@ struct SlamSettings {
   /// Of a frame; 0: by its size, 1000 for 640 x 480 pixels and more for larger images, so that they are as dense.
   int features = 0;
   bool close_loops = true;
+  /// Of a target: the last adjustment takes a rotation at a constant rate about a fixed axis where no attitude
+  /// contradicts it (SteadyRotation).
+  bool steady_rotation = true;
   /// Tracking, mapping and loop closing each in its own thread; else in sequence, with identical results for the same
   /// input.
   bool threads = false;

@@ -12,6 +12,7 @@
 #include "host/vision/slam/feature.hpp"
 #include "host/vision/slam/loop_counts.hpp"
 #include "host/vision/slam/slam_settings.hpp"
+#include "host/vision/slam/spin.hpp"
 #include "host/vision/slam/tracked_frame.hpp"
 #include "pharos/base/image_view.hpp"
 
@@ -23,6 +24,7 @@ struct SlamReport {
   int dark = 0, saturated = 0;  ///< frames too dark or too bright for any feature
   Scene scene = Scene::kAuto;   ///< that of the map, or, before it, of the last pair
   int keyframes = 0, keyframes_made = 0, points = 0;
+  bool steady_rotation = false;  ///< the last adjustment took the rotation as steady (SlamSettings::steady_rotation)
   int loops = 0, loops_refused = 0;  ///< refused: keyframes of which no candidate closed a loop
   LoopCounts loop_candidates;
   double features_median = 0.0, inliers_median = 0.0;
@@ -60,6 +62,9 @@ class SlamSystem {
   virtual std::vector<TrackedFrame> trajectory() const = 0;
   /// The result of trajectory() after finish(), without any effect on the system.
   virtual std::vector<TrackedFrame> optimised_trajectory() const = 0;
+  /// Of trajectory(), about an axis in the left camera's frame; after finish() of a steady rotation that one's
+  /// (steady_spin).
+  virtual std::optional<Spin> spin() const = 0;
   virtual std::vector<SlamPoint> points() const = 0;
   virtual std::vector<ClosedLoop> loops() const = 0;
   virtual SlamReport report() const = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "host/vision/slam/rotation_jacobian.hpp"
 #include "pharos/geometry/symmetric.hpp"
 #include "pharos/optimize/descent.hpp"
 #include "pharos/optimize/least_squares.hpp"
@@ -16,15 +17,6 @@ constexpr std::size_t kMinFrames = 10;
 constexpr int kMaxIterations = 20;
 // Convergence: decrease of the sum of squares over all attitudes in the last step, rad^2.
 constexpr double kConverged = 1e-18;
-
-// d log(exp(phi + d) exp(-phi)) / d d.
-Matrix3 left_jacobian(const Vector3& phi) {
-  const double angle = phi.norm();
-  const Matrix3 cross = skew(phi);
-  if (angle < 1e-6) return Matrix3::Identity() + 0.5 * cross;
-  return Matrix3::Identity() + (1.0 - std::cos(angle)) / (angle * angle) * cross +
-         (angle - std::sin(angle)) / (angle * angle * angle) * cross * cross;
-}
 
 struct Attitude {
   double time_s;
@@ -134,6 +126,15 @@ std::optional<Spin> fit_spin(const std::vector<TrackedFrame>& frames) {
   spin.turned_rad = turn.rate.norm() * (attitudes.back().time_s - attitudes.front().time_s);
   spin.frames = static_cast<int>(residuals.size());
   return spin;
+}
+
+Spin steady_spin(const Vector3& rate_rad_s, const Spin& fit) {
+  Spin out = fit;
+  const Vector3 off = rate_rad_s - fit.rate_rad_s;
+  out.rate_rad_s = rate_rad_s;
+  out.covariance += off * off.transpose();
+  out.turned_rad *= rate_rad_s.norm() / fit.rate();
+  return out;
 }
 
 }  // namespace pharos::slam

@@ -28,4 +28,8 @@ struct Spin {
 /// residuals' correlation. Empty below ten frames.
 std::optional<Spin> fit_spin(const std::vector<TrackedFrame>& frames);
 
+/// Of attitudes that an adjustment put on a rotation at this rate, whose scatter says nothing: the rate with the
+/// covariance of `fit`, to the attitudes without that, and the square of the difference.
+Spin steady_spin(const Vector3& rate_rad_s, const Spin& fit);
+
 }  // namespace pharos::slam

@@ -40,17 +40,24 @@ void TrajectoryLog::add(const TrackedFrame& frame, KeyframeId reference,
                       frame.placed.has_value(), frame.lost, frame.keyframe, frame.relocalised});
 }
 
-std::vector<TrackedFrame> TrajectoryLog::frames(const Map& map, const Matrix3& R_left_rectified) const {
+std::vector<TrackedFrame> TrajectoryLog::frames(const Map& map, const Matrix3& R_left_rectified,
+                                                const SteadyRotation* steady) const {
   std::vector<TrackedFrame> out;
   out.reserve(entries_.size());
   for (const Entry& entry : entries_) {
     out.push_back({entry.number, entry.time_s, std::nullopt, entry.lost, false, entry.keyframe, entry.relocalised,
                    entry.features, entry.inliers});
     if (!entry.placed) continue;
-    const CameraFromTarget pose = entry.T_frame_reference * map.pose_of(entry.reference);
+    CameraFromTarget pose = entry.T_frame_reference * map.pose_of(entry.reference);
     Matrix6 covariance = turned(pose.R, map.covariance_of(entry.reference));
     // A keyframe has its covariance from the map, which includes its features' part.
     if (!entry.keyframe) covariance += matrix_of(entry.own);
+    if (steady != nullptr) {
+      const CameraFromTarget on = steady->steadied(pose, entry.time_s);
+      const Vector6 off = pose_difference(on, pose);
+      covariance += off * off.transpose();
+      pose = on;
+    }
     out.back().placed = in_left_frame({pose, covariance, static_cast<double>(entry.rms_px)}, R_left_rectified);
   }
   return out;

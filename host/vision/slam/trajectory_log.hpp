@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/vision/slam/map.hpp"
+#include "host/vision/slam/steady_rotation.hpp"
 #include "host/vision/slam/tracked_frame.hpp"
 
 namespace pharos::slam {
@@ -18,7 +19,10 @@ class TrajectoryLog {
   void add(const TrackedFrame& frame, KeyframeId reference, const Pose<frame::Camera, frame::Camera>& T_frame_reference,
            const Matrix6& own);
   /// Poses from the present map; `R_left_rectified` converts them from the rectified camera's frame to the left one's.
-  std::vector<TrackedFrame> frames(const Map& map, const Matrix3& R_left_rectified) const;
+  /// Where a steady rotation is given, attitudes are on it, and the square of what this moves is part of the
+  /// covariance.
+  std::vector<TrackedFrame> frames(const Map& map, const Matrix3& R_left_rectified,
+                                   const SteadyRotation* steady = nullptr) const;
   std::size_t size() const { return entries_.size(); }
 
  private:

@@ -90,7 +90,8 @@ constexpr std::array kColumns{"seed",
                               "live_attitude",
                               "live_position",
                               "attitude_over_sigma",
-                              "position_over_sigma"};
+                              "position_over_sigma",
+                              "steady_rotation"};
 
 using Values = std::array<double, kColumns.size() - 1>;
 
@@ -109,10 +110,11 @@ Values values_of(const BodyFigures& f) {
           f.live_attitude_over_sigma,
           f.live_position_over_sigma,
           f.attitude_over_sigma,
-          f.position_over_sigma};
+          f.position_over_sigma,
+          f.steady_rotation ? 1.0 : 0.0};
 }
 
-bool is_count(std::size_t column) { return column < 5 || (column >= 8 && column <= 10); }
+bool is_count(std::size_t column) { return column < 5 || (column >= 8 && column <= 10) || column == 15; }
 
 // The sum of a count, of another figure the largest; or the median of every column.
 Values over_all(const std::vector<BodyFigures>& bodies, bool median) {
@@ -190,6 +192,7 @@ BodyFigures run_body(const BodyCampaign& campaign, std::uint64_t seed) {
   out.pairs = sequence.frames();
   out.lost = report.lost;
   out.ambiguous_place = report.ambiguous_place;
+  out.steady_rotation = report.steady_rotation;
   out.live_attitude_over_sigma = live.root(live.attitude);
   out.live_position_over_sigma = live.root(live.position);
   measure(system->trajectory(), sequence, std::max(0, first), out);

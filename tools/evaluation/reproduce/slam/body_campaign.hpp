@@ -29,6 +29,7 @@ struct BodyFigures {
   /// RMS of errors over stated sigmas, per degree of freedom: of the results of push(), and of the last map.
   double live_attitude_over_sigma = 0.0, live_position_over_sigma = 0.0;
   double attitude_over_sigma = 0.0, position_over_sigma = 0.0;
+  bool steady_rotation = false;  ///< the last map's attitudes are on a steady rotation
 };
 
 BodyFigures run_body(const BodyCampaign& campaign, std::uint64_t seed);

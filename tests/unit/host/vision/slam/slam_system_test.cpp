@@ -117,7 +117,7 @@ TEST_F(SlamOfATurn, FollowsTheAttitude) {
   EXPECT_EQ(report.tracked, kFrames);
   EXPECT_GE(report.keyframes, 2);
   EXPECT_EQ(slam->points().size(), static_cast<std::size_t>(report.points));
-  const auto spin = fit_spin(trajectory);
+  const auto spin = slam->spin();
   ASSERT_TRUE(spin);
   EXPECT_NEAR(kDegrees * spin->rate(), 20.0, 0.3);
   const Vector3 axis = footage().sequence.pose(0).R.col(2);
@@ -169,6 +169,44 @@ TEST_F(SlamOfATurn, BlackAndSaturatedFramesHaveNoPoseAndItComesBack) {
   EXPECT_EQ(report.saturated, 1);
   EXPECT_GE(report.lost, 2);
   EXPECT_EQ(report.relocalised, 1);
+}
+
+TEST_F(SlamOfATurn, IsTakenAsSteadyUnlessToldNotTo) {
+  for (const bool may_be : {true, false}) {
+    SlamSettings settings;
+    settings.features = 800;
+    settings.steady_rotation = may_be;
+    const auto slam = make_slam(footage().sequence.rig(), "rig.toml", settings);
+    for (int k = 0; k < 40; ++k) push(*slam, 4 * k, k);  // 5 Hz: a keyframe wherever one is wanted
+    EXPECT_FALSE(slam->report().steady_rotation);
+    slam->finish();
+    ASSERT_GE(slam->report().keyframes, 10);
+    EXPECT_EQ(slam->report().steady_rotation, may_be);
+    const auto frames = slam->trajectory();
+    const auto step = [&frames](std::size_t k) {
+      return rotation_log(frames[k].placed->pose.R * frames[k - 1].placed->pose.R.transpose());
+    };
+    double uneven_rad = 0.0;
+    for (std::size_t k = 2; k < frames.size(); ++k) uneven_rad = std::max(uneven_rad, (step(k) - step(1)).norm());
+    EXPECT_EQ(uneven_rad < 1e-9, may_be);
+    // What a fit to steady attitudes would state is nothing.
+    const auto spin = slam->spin();
+    ASSERT_TRUE(spin);
+    EXPECT_GT(spin->sigma_rate_rad_s(), 1e-7);
+    EXPECT_LT(std::abs(spin->rate() - 5.0 / kDegrees), 4.0 * spin->sigma_rate_rad_s());
+    EXPECT_EQ((spin->rate_rad_s - 5.0 * step(1)).norm() < 1e-9, may_be);
+    if (!may_be) continue;
+    push(*slam, 4 * 40, 40);
+    EXPECT_FALSE(slam->report().steady_rotation) << "until it is adjusted again";
+  }
+}
+
+TEST_F(SlamOfATurn, ThereAndBackIsNotSteady) {
+  const auto slam = system();
+  for (int k = 0; k < 40; ++k) push(*slam, 4 * k, k <= 20 ? k : 40 - k);
+  slam->finish();
+  ASSERT_GE(slam->report().keyframes, 10);
+  EXPECT_FALSE(slam->report().steady_rotation);
 }
 
 TEST_F(SlamOfATurn, AJumpOfTenDegreesIsFollowed) {
@@ -274,6 +312,7 @@ class SlamOfARoom : public ::testing::Test {
       ASSERT_TRUE(slam->push(0.05 * k, {left.data(), 564, 360}, {right.data(), 564, 360}).placed) << k;
     }
     slam->finish();
+    EXPECT_FALSE(slam->report().steady_rotation) << "a camera that moves";
     EXPECT_EQ(slam->report().scene, Scene::kStatic);
     for (const TrackedFrame& frame : slam->trajectory()) {
       const auto truth = room().truth(static_cast<int>(frame.number));

@@ -56,5 +56,19 @@ TEST(Spin, NeedsTenFrames) {
   EXPECT_FALSE(fit_spin(turning({0.0, 0.1, 0.0}, 9, 0.0, random)));
 }
 
+TEST(Spin, OfASteadyRotationStatesTheScatterWithoutItAndTheDifference) {
+  std::mt19937_64 random(4);
+  const Vector3 rate(0.0, 0.1, 0.02);
+  const auto fit = fit_spin(turning(rate, 100, 0.002, random));
+  ASSERT_TRUE(fit);
+  const Vector3 off(0.0, 0.01, 0.0);
+  const Spin steady = steady_spin(fit->rate_rad_s + off, *fit);
+  EXPECT_EQ(steady.rate_rad_s, fit->rate_rad_s + off);
+  EXPECT_NEAR(steady.covariance(1, 1), fit->covariance(1, 1) + 1e-4, 1e-12);
+  EXPECT_NEAR(steady.covariance(0, 0), fit->covariance(0, 0), 1e-12);
+  EXPECT_GT(steady.sigma_rate_rad_s(), fit->sigma_rate_rad_s());
+  EXPECT_NEAR(steady.turned_rad / fit->turned_rad, steady.rate() / fit->rate(), 1e-12);
+}
+
 }  // namespace
 }  // namespace pharos::slam
