@@ -51,7 +51,7 @@ DepthFramePtr RecordedSource::take() {
   } catch (const InputError& error) {
     ++status_.counters.frames_wrong_size;
     status_.error = error.what();
-    recycle(std::move(frame));
+    recycle(std::exchange(frame, nullptr));
   }
   ++next_;
   arm();

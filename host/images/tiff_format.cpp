@@ -63,7 +63,7 @@ int map(thandle_t handle, void** base, toff_t* size) {
 }
 void unmap(thandle_t, void*, toff_t) {}
 
-int on_error(TIFF*, void* user, const char*, const char* format, va_list arguments) {
+[[gnu::format(printf, 4, 0)]] int on_error(TIFF*, void* user, const char*, const char* format, va_list arguments) {
   Source& source = *static_cast<Source*>(user);
   if (!source.error.empty()) return 1;
   std::array<char, 160> text{};
@@ -75,7 +75,8 @@ int on_error(TIFF*, void* user, const char*, const char* format, va_list argumen
 }
 
 // Most warnings are about unknown tags and harmless. The JPEG decoder fills in missing data and warns.
-int on_warning(TIFF* tiff, void* user, const char* module, const char* format, va_list arguments) {
+[[gnu::format(printf, 4, 0)]] int on_warning(TIFF* tiff, void* user, const char* module, const char* format,
+                                             va_list arguments) {
   return module != nullptr && std::string_view(module) == "JPEGLib" ? on_error(tiff, user, module, format, arguments)
                                                                     : 1;
 }

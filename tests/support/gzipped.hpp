@@ -14,7 +14,7 @@ namespace pharos::test {
 
 inline std::string gzipped(std::string_view content) {
   const TemporaryFile file;
-  const gzFile out = gzopen(file.path().c_str(), "wb");
+  gzFile out = gzopen(file.path().c_str(), "wb");
   gzwrite(out, content.data(), static_cast<unsigned>(content.size()));
   gzclose(out);
   std::ifstream in(file.path(), std::ios::binary);

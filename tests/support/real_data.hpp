@@ -20,7 +20,7 @@ inline std::filesystem::path real_data(const std::string& name) {
 /// Whether a test without its data fails: $PHAROS_REQUIRE_DATA is set, and not to 0. Otherwise it is skipped.
 inline bool real_data_required() {
   const char* value = std::getenv("PHAROS_REQUIRE_DATA");
-  return value != nullptr && std::string_view(value) != "" && std::string_view(value) != "0";
+  return value != nullptr && !std::string_view(value).empty() && std::string_view(value) != "0";
 }
 
 inline std::string real_data_missing(const std::string& name) {

@@ -127,7 +127,8 @@ inline SyntheticFrame render(const SyntheticRing& scene, const CameraFromTarget&
       double grey = 0.0;
       double moment = 0.0;
       for (int k = 0; k < kSide * kSide; ++k) {
-        const Vector2 pixel(u + (k % kSide + 0.5) / kSide - 0.5, v + (k / kSide + 0.5) / kSide - 0.5);
+        const int row = k / kSide;
+        const Vector2 pixel(u + (k % kSide + 0.5) / kSide - 0.5, v + (row + 0.5) / kSide - 0.5);
         const Vector2 ray = *undistort(camera.intrinsics, pixel);
         const synthetic::Light light = synthetic::trace(scene, T_target_camera, {ray.x(), ray.y(), 1.0});
         grey += light.grey;

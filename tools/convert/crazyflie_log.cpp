@@ -129,8 +129,8 @@ EventType read_type(Bytes& in) {
 /// Places of an event's variables by name; none where the log has no such event.
 class Columns {
  public:
-  Columns(const std::map<std::uint16_t, EventType>& types, const std::string& event, std::vector<std::string> names,
-          const std::string& file, bool required = true) {
+  Columns(const std::map<std::uint16_t, EventType>& types, const std::string& event,
+          const std::vector<std::string>& names, const std::string& file, bool required = true) {
     for (const auto& [id, type] : types) {
       if (type.name != event) continue;
       id_ = id;

@@ -56,7 +56,7 @@ void GzipTable::flush() {
   buffer_.clear();
 }
 
-void write_target(const fs::path& path, const Target& target) {
+void write_target(const std::filesystem::path& path, const Target& target) {
   host::AtomicFile file(path.string());
   host::RowWriter rows(file.stream(), host::RowFormat::kCsv, {"sensor", "x_m", "y_m", "z_m", "nx", "ny", "nz"});
   for (const SensorPlacement& sensor : target) {
@@ -73,7 +73,7 @@ void write_target(const fs::path& path, const Target& target) {
   file.commit();
 }
 
-void write_faults(const fs::path& path, const std::vector<InjectedFault>& faults) {
+void write_faults(const std::filesystem::path& path, const std::vector<InjectedFault>& faults) {
   host::AtomicFile file(path.string());
   host::RowWriter rows(file.stream(), host::RowFormat::kCsv, {"time_s", "kind", "station", "sensor", "amount"});
   for (const InjectedFault& fault : faults) {

@@ -4,7 +4,6 @@
 #include <microhttpd.h>
 
 #include <algorithm>
-#include <cstring>
 #include <string_view>
 
 #include "host/runtime/now.hpp"
@@ -233,7 +232,7 @@ std::int64_t HttpServer::read_states(Viewer& viewer, char* buffer, std::size_t s
     return 0;
   }
   const std::size_t count = std::min(size, viewer.state->size() - viewer.sent);
-  std::memcpy(buffer, viewer.state->data() + viewer.sent, count);
+  viewer.state->copy(buffer, count, viewer.sent);
   viewer.sent += count;
   if (viewer.sent == viewer.state->size()) viewer.state.reset();
   return static_cast<std::int64_t>(count);

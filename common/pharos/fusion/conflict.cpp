@@ -130,7 +130,7 @@ void FusionCore::examine_conflict(FusionState& state) const {
   suspects.active = false;
   state.main = state.without[left_out];
   state.monitors[left_out].contributed = false;
-  for (std::uint8_t k = 0; k < settings_.sources.size(); ++k) {
+  for (std::uint8_t k = 0; k < sources(); ++k) {
     if (k != left_out && k != held && state.monitors[k].contributed) drop_without(state, k);
   }
 }

@@ -69,7 +69,7 @@ void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, c
   direction.normalize();
   int witnesses = 0;
   std::uint8_t witness = 0;
-  for (std::uint8_t k = 0; k < settings_.sources.size(); ++k) {
+  for (std::uint8_t k = 0; k < sources(); ++k) {
     const SourceMonitor& other = state.monitors[k];
     const SourceSettings& source = settings_.sources[k];
     if (k == m.source || other.excluded || other.last_gated || source.relative || !other.contributed) continue;
@@ -86,7 +86,7 @@ void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, c
   }
   std::uint8_t suspect = witness;
   bool doubted = witnesses == 1;
-  for (std::uint8_t k = 0; k < settings_.sources.size(); ++k) {
+  for (std::uint8_t k = 0; k < sources(); ++k) {
     if (k == m.source || !state.monitors[k].contributed) continue;
     const double largest = std::fmax(separation(state, k, true), separation(state, k, false));
     if (largest > kSuspicious * separation_threshold_) {
@@ -148,7 +148,7 @@ void FusionCore::examine_separations(FusionState& state) const {
   std::array<double, 2> best{1e300, 1e300};
   std::array<std::uint8_t, 2> who{};
   int candidates = 0;
-  for (std::uint8_t s = 0; s < settings_.sources.size(); ++s) {
+  for (std::uint8_t s = 0; s < sources(); ++s) {
     if (!state.monitors[s].contributed || !state.without[s].valid() || !state.without[s].complete()) continue;
     largest = std::fmax(largest, std::fmax(separation(state, s, true), separation(state, s, false)));
     const double fit = misfit(state, s);

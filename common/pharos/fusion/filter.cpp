@@ -220,7 +220,8 @@ void Filter::start(const TargetMeasurement& measurement, const Settings& setting
   const StartSettings& start = settings.start;
   for (std::size_t i = 6; i < 9; ++i) covariance_(i, i) = start.sigma_rate_rad_s * start.sigma_rate_rad_s;
   for (std::size_t i = 9; i < 12; ++i) covariance_(i, i) = start.sigma_velocity_m_s * start.sigma_velocity_m_s;
-  for (std::uint8_t s = 0; s < settings.sources.size(); ++s) reset_bias(s, settings);
+  const auto sources = static_cast<std::uint8_t>(settings.sources.size());  // at most kMaxSources
+  for (std::uint8_t s = 0; s < sources; ++s) reset_bias(s, settings);
   valid_ = true;
   complete_ = measurement.directions.rank == 6;
   const Innovation first = innovation(measurement, settings);

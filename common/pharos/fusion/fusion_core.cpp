@@ -12,9 +12,8 @@
 namespace pharos::fusion {
 namespace {
 
-constexpr int kFrozenRepeats = 2;        // the third equal pose: noise repeats no digit
-constexpr double kJoining_s = 1.0;       // how long a source that came moves the state by one sigma at most
-constexpr double kContradicted_s = 1.0;  // measurements, but none that fits: the track is wrong
+constexpr int kFrozenRepeats = 2;   // the third equal pose: noise repeats no digit
+constexpr double kJoining_s = 1.0;  // how long a source that came moves the state by one sigma at most
 constexpr int kMaxHalvings = 24;
 constexpr double kOwnErrorKept = 0.9;  // of the variance of a source's own error, a measurement
 // A bias follows where the noise that its source states has changed by this ratio: a smaller change says nothing of it.

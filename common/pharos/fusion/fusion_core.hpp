@@ -62,6 +62,7 @@ class FusionCore {
   bool source_is_alone(const FusionState& state, std::uint8_t source) const;
   double misfit(const FusionState& state, std::size_t without) const;
   double separation(const FusionState& state, std::size_t source, bool rotation) const;
+  std::uint8_t sources() const { return static_cast<std::uint8_t>(settings_.sources.size()); }  // at most kMaxSources
   // unresolved.cpp
   void mark_unresolved(FusionState& state, std::uint8_t source) const;
   void note_unresolved_restart(FusionState& state) const;

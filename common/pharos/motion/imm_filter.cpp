@@ -11,7 +11,6 @@
 namespace pharos::motion {
 namespace {
 
-constexpr std::size_t kModels = ImmFilter::kModels;
 constexpr std::size_t kMoving = ImmFilter::kMoving;
 
 // White jerk that drives the moving models: spectral densities, (rad/s^3)^2 s and (m/s^3)^2 s. From a satellite's slow

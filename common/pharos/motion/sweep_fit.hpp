@@ -39,7 +39,8 @@ struct HitFit {
 class HitFits : public StaticVector<HitFit, kMaxSensors> {
  public:
   HitFits() = default;
-  HitFits(const HitFits& other) : StaticVector() { *this = other; }
+  // The base's copies all that it has room for.
+  HitFits(const HitFits& other) : StaticVector() { *this = other; }  // NOLINT(bugprone-copy-constructor-init)
   HitFits& operator=(const HitFits& other) {
     resize(other.size());
     std::copy(other.begin(), other.end(), begin());

@@ -247,7 +247,8 @@ class BoxFinder {
     for (std::size_t k = 0; k < seeds_; ++k) {
       const std::uint16_t cell = workspace_.front[k];
       std::uint8_t& state = workspace_.state[cell];
-      const Vector2 off = grid_.place_of(cell % kMaxGridSide, cell / kMaxGridSide) - rectangle.centre_m;
+      const int cell_row = cell / kMaxGridSide;
+      const Vector2 off = grid_.place_of(cell % kMaxGridSide, cell_row) - rectangle.centre_m;
       if (std::fabs(first.dot(off)) < rectangle.half_sides_m.x() + beyond &&
           std::fabs(second.dot(off)) < rectangle.half_sides_m.y() + beyond) {
         state = kTaken;

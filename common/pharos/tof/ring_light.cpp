@@ -67,8 +67,8 @@ class ColumnFiller {
 
  private:
   void add(const RingPixel& pixel, const RingDirection& one) {
-    const std::array<double, 2> beyond = {double{pixel.beyond_outer_px},
-                                          one.beyond_px(double{pixel.beyond_outer_px}, 1)};
+    const std::array<double, 2> beyond = {static_cast<double>(pixel.beyond_outer_px),
+                                          one.beyond_px(static_cast<double>(pixel.beyond_outer_px), 1)};
     for (std::size_t e = 0; e < 2; ++e) {
       if (one.foot_px[e] > 0.0 && one.wall[e] > kWallLikeFace && beyond[e] > -kFace_px) return;
       if (beyond[e] > one.foot_px[e] + kBeyond_px) return;
@@ -76,8 +76,8 @@ class ColumnFiller {
     const double base = base_of(one, beyond[0] > beyond[1] ? 0 : 1);
     if (!(base < 0.0)) return;
     columns_.beyond_px[next_] = pixel.beyond_outer_px;
-    columns_.layer[next_++] =
-        static_cast<float>(static_cast<double>(pixel.light) * std::max(-1.0, 1.0 - double{pixel.height_m} / base));
+    columns_.layer[next_++] = static_cast<float>(static_cast<double>(pixel.light) *
+                                                 std::max(-1.0, 1.0 - static_cast<double>(pixel.height_m) / base));
   }
 
   // Depth of what is beyond the edge that a pixel is nearer to; 0 where that is not known to lie behind the ring.
@@ -215,7 +215,7 @@ class RingLightFitter {
     }
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(count));
-    return std::max(1e-3 * prior_.amplitude, kMedianToSigma * double{*middle});
+    return std::max(1e-3 * prior_.amplitude, kMedianToSigma * static_cast<double>(*middle));
   }
 
   bool solve(const Vector3& plane_offset, RingLight& result) {
@@ -313,12 +313,12 @@ class RingLightFitter {
     for (std::size_t k = 0; k < kRingDirections; ++k) {
       const RingDirection& one = work_.directions[k];
       for (const RingPixel& pixel : work_.of(k)) {
-        const double outer = double{pixel.beyond_outer_px} - one.moved_px[0],
-                     inner = one.beyond_px(double{pixel.beyond_outer_px}, 1) + one.moved_px[1];
+        const double outer = static_cast<double>(pixel.beyond_outer_px) - one.moved_px[0],
+                     inner = one.beyond_px(static_cast<double>(pixel.beyond_outer_px), 1) + one.moved_px[1];
         if (outer > -margin_px || inner > -margin_px || pixel.light == 0) continue;
         const double light = pixel.light;
         const double bias = (moment_from_behind(one, 0, outer) + moment_from_behind(one, 1, inner)) / light;
-        const double r = model_.radius_m[0] + double{pixel.beyond_outer_px} / one.per_m[0];
+        const double r = model_.radius_m[0] + static_cast<double>(pixel.beyond_outer_px) / one.per_m[0];
         const Vector3 row(1.0, r * one.plan.x(), r * one.plan.y());
         const double weight = std::clamp(light * light * scale, 0.25, 4.0);
         add_outer<3>(normal, row, weight);

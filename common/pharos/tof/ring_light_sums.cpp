@@ -17,7 +17,7 @@ constexpr float kSharp = 1e5F;
 constexpr double kNarrowWall = 0.2;
 
 // The same order on every machine.
-double sum_of(const Lanes& lanes) { return double{(lanes[0] + lanes[1]) + (lanes[2] + lanes[3])}; }
+double sum_of(const Lanes& lanes) { return static_cast<double>((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])); }
 
 Lanes is_positive(const Lanes& x) { return (kSharp * x).max(0.0F).min(1.0F); }
 

@@ -161,10 +161,10 @@ class Gatherer {
         const std::size_t s = k / kDirectionsTogether;
         for (const RingPixel& pixel : work_.of(k)) {
           for (std::size_t e = 0; e < 2; ++e) {
-            const double away = one.beyond_px(double{pixel.beyond_outer_px}, e) - one.foot_px[e];
+            const double away = one.beyond_px(static_cast<double>(pixel.beyond_outer_px), e) - one.foot_px[e];
             if (away < kBehind_px || away > kLightReach_px) continue;
             light[e][s] += static_cast<double>(pixel.light);
-            moment[e][s] += static_cast<double>(pixel.light) * double{pixel.height_m};
+            moment[e][s] += static_cast<double>(pixel.light) * static_cast<double>(pixel.height_m);
             ++count[e][s];
           }
         }

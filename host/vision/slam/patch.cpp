@@ -128,7 +128,8 @@ Matrix6f squares_of(const Template& patch) {
   Eigen::Matrix3f texture = Eigen::Matrix3f::Zero(), light_texture = Eigen::Matrix3f::Zero();
   for (std::size_t k = 0; k < patch.value.size(); ++k) {
     const auto off_u = static_cast<float>(k % kSide_px) - kHalf_px;
-    const auto off_v = static_cast<float>(k / kSide_px) - kHalf_px;
+    const std::size_t row = k / kSide_px;
+    const auto off_v = static_cast<float>(row) - kHalf_px;
     const Eigen::Vector3f of_texture(patch.along_u[k], patch.along_v[k], -patch.value[k]),
         of_light(-1.0F, -off_u, -off_v);
     texture.noalias() += of_texture * of_texture.transpose();

@@ -38,9 +38,8 @@ class AttackedImages : public ::testing::Test {
 
 TEST_F(AttackedImages, ExchangedOrEqual) {
   const std::string pairs = folder.path("pairs"), rig = pairs + "/rig.toml", boards = folder.path("boards");
-  ASSERT_EQ(
-      run_command({PHAROS, "sim", "stereo", PHAROS_SCENARIOS "/stereo_pairs.toml", "--output", pairs}, 600.0).exit_code,
-      0);
+  const std::string scenario = PHAROS_SCENARIOS "/stereo_pairs.toml";
+  ASSERT_EQ(run_command({PHAROS, "sim", "stereo", scenario, "--output", pairs}, 600.0).exit_code, 0);
   ASSERT_EQ(
       run_command({PHAROS, "sim", "stereo", "--scene", "boards", "--pairs", "6", "--output", boards}, 600.0).exit_code,
       0);

@@ -70,7 +70,7 @@ TEST(CliBadInput, EmptyFilesAndGarbage) {
   expect_refusal(pharos("decode -", ""), "standard input: empty");
   const std::string garbage(
       "\x7f"
-      "ELF\x02\x01\x01\0\0\0\0\n\n",
+      "ELF\x02\x01\x01\0\0\0\0\n\n\0",
       14);
   expect_refusal(pharos("decode " + folder.write("program", garbage)), "neither a table");
   expect_refusal(pharos("track " + folder.write("program", garbage) + " --target " + recording().target()),

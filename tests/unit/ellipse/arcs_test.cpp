@@ -96,7 +96,7 @@ TEST(Polygon, KeepsEveryPointWithinTheTolerance) {
   EXPECT_EQ(vertices->back(), points.size() - 1);
   for (std::size_t k = 1; k < vertices->size(); ++k) {
     const EdgePoint &a = points[(*vertices)[k - 1]], &b = points[(*vertices)[k]];
-    const double chord = std::hypot(b.u_px - a.u_px, b.v_px - a.v_px);
+    const auto chord = static_cast<double>(std::hypot(b.u_px - a.u_px, b.v_px - a.v_px));
     EXPECT_LT(chord, 2.0 * std::sqrt(8.0 * 60.0 * 0.7));
     EXPECT_LE(60.0 - std::sqrt(60.0 * 60.0 - 0.25 * chord * chord), 0.71);  // sagitta
   }

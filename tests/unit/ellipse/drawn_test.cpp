@@ -35,7 +35,7 @@ Imaging imaging_of(double noise, double blur_px = 0.7) {
   return imaging;
 }
 
-RingImage finished(const Drawing& drawing, std::vector<TrueEllipse> truth, double noise, Random& random) {
+RingImage finished(const Drawing& drawing, const std::vector<TrueEllipse>& truth, double noise, Random& random) {
   RingImage image;
   image.pixels = drawing.image(imaging_of(noise), random.engine);
   for (const TrueEllipse& e : truth) {
@@ -236,7 +236,8 @@ TEST(DrawnEllipses, PolygonsHoldNone) {
   EXPECT_EQ(found, 0);
   Drawing board(kDrawnWidth, kDrawnHeight, 0.8);
   for (int k = 0; k < 80; ++k) {
-    const double u = 20.0 + 30.0 * (k % 10) + (k / 10 % 2) * 15.0, v = 20.0 + 15.0 * (k / 10);
+    const int row = k / 10;
+    const double u = 20.0 + 30.0 * (k % 10) + (row % 2) * 15.0, v = 20.0 + 15.0 * row;
     board.fill(test::Polygon{{{u, v}, {u + 15.0, v}, {u + 15.0, v + 15.0}, {u, v + 15.0}}}, 0.1);
   }
   Bench bench;

@@ -71,12 +71,14 @@ using Prepare = std::function<void(motion::MotionTracker&, const sim::Lighthouse
 
 /// Every station is ideal.
 inline void tell_ideal_stations(motion::MotionTracker& tracker, const sim::LighthouseSimulator& simulator) {
-  for (std::uint8_t station = 0; station < simulator.stations().size(); ++station) tracker.set_calibration(station, {});
+  const auto stations = static_cast<std::uint8_t>(simulator.stations().size());
+  for (std::uint8_t station = 0; station < stations; ++station) tracker.set_calibration(station, {});
 }
 
 /// The calibrations that the stations send over OOTX.
 inline void tell_announced(motion::MotionTracker& tracker, const sim::LighthouseSimulator& simulator) {
-  for (std::uint8_t station = 0; station < simulator.stations().size(); ++station) {
+  const auto stations = static_cast<std::uint8_t>(simulator.stations().size());
+  for (std::uint8_t station = 0; station < stations; ++station) {
     lighthouse::StationCalibration calibration;
     for (std::size_t k = 0; k < kAxes; ++k) {
       const sim::SheetErrors& sent = simulator.stations()[station].announced.rotor[k];

@@ -111,8 +111,9 @@ TEST_F(SampleLightTest, TheEdgeOfTwoSurfacesOfOneBrightnessIsTheMiddleOfThePixel
     for (int v = 0; v < frame_.height_px; ++v) {
       for (int u = 161; u < frame_.width_px; ++u) frame_.depth[at(u, v)] = counts_of(3.1);
     }
-    lose_depth(161 - width / 2, 160 - width / 2 + width);
-    const double edge = 160.5 - width / 2 + 0.5 * width, middle = 160.7;
+    const int half = width / 2;
+    lose_depth(161 - half, 160 - half + width);
+    const double edge = 160.5 - half + 0.5 * width, middle = 160.7;
     ASSERT_TRUE(sample(Vector2(middle, 120.0)));
     const auto found = steepest_of_samples(light_of_layer(profile_, kSearch_px, 0.1, 0.0), kSearch_px, -1.0);
     ASSERT_GT(found.strength, 0.0) << width;

@@ -49,7 +49,7 @@ BenchRow cost_of_a_hit(const std::string& what, const Target& target, int statio
   double best_s = 1e9;
   for (int k = 0; k < kMotionRepeats; ++k) {
     const auto tracker = std::make_unique<motion::MotionTracker>(target, motion::MotionOptions{});
-    for (std::uint8_t station = 0; station < stations; ++station) tracker->set_calibration(station, {});
+    for (int s = 0; s < stations; ++s) tracker->set_calibration(static_cast<std::uint8_t>(s), {});
     best_s = std::min(best_s, seconds_of([&] {
                         for (const lighthouse::Sweep& sweep : sweeps) tracker->push(sweep);
                       }));

@@ -49,7 +49,8 @@ class Drawing {
                            corner == inside(u + 0.5, v + 0.5) && corner == inside(u, v);
         int covered = plain && corner ? kPlaces * kPlaces : 0;
         for (int k = 0; !plain && k < kPlaces * kPlaces; ++k) {
-          const double x = (k % kPlaces + 0.5) / kPlaces - 0.5, y = (k / kPlaces + 0.5) / kPlaces - 0.5;
+          const int row = k / kPlaces;
+          const double x = (k % kPlaces + 0.5) / kPlaces - 0.5, y = (row + 0.5) / kPlaces - 0.5;
           covered += inside(u + x, v + y) ? 1 : 0;
         }
         const double part = static_cast<double>(covered) / (kPlaces * kPlaces);
@@ -132,7 +133,8 @@ class SheetGenerator {
     const double paper = uniform(0.6, 0.9), ink = uniform(0.03, 0.15), hole = uniform(0.35, 0.75);
     drawing.fill(sheet, paper);
     for (int k = 0; k < set_.columns * set_.rows; ++k) {
-      const Vec3 centre = at(k % set_.columns - 0.5 * (set_.columns - 1), k / set_.columns - 0.5 * (set_.rows - 1));
+      const int row = k / set_.columns;
+      const Vec3 centre = at(k % set_.columns - 0.5 * (set_.columns - 1), row - 0.5 * (set_.rows - 1));
       add(drawing, image, {centre, normal, 1.0}, ink);
       if (set_.rings) add(drawing, image, {centre, normal, hole}, paper);
     }

@@ -24,7 +24,7 @@ struct Builder {
   Vector3 t_m = Vector3::Zero();
   SolidScene scene;
 
-  void add(std::variant<SolidBox, FlatRing, ConeShell, Dish> shape, const Material& material, const Vector3& at,
+  void add(const std::variant<SolidBox, FlatRing, ConeShell, Dish>& shape, const Material& material, const Vector3& at,
            const Matrix3& turn = Matrix3::Identity()) {
     scene.solids.push_back({shape, material, R * turn, R * at + t_m});
   }

@@ -27,7 +27,7 @@ struct Builder {
   Frame frame;
   SolidScene scene;
 
-  void add(std::variant<SolidBox, FlatRing, ConeShell, Dish> shape, const Material& material, const Vector3& at,
+  void add(const std::variant<SolidBox, FlatRing, ConeShell, Dish>& shape, const Material& material, const Vector3& at,
            const Matrix3& R = Matrix3::Identity()) {
     scene.solids.push_back({shape, material, frame.R * R, frame.R * at + frame.t_m});
   }

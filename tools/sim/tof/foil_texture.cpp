@@ -56,7 +56,8 @@ FoilTexture::FoilTexture(double height_m, RandomStream random) {
   double squares = 0.0;
   for (std::size_t i = 0; i < kCount; ++i) {
     const double x = static_cast<double>(i % kCells) / kCells;
-    const double y = static_cast<double>(i / kCells) / kCells;
+    const std::size_t row = i / kCells;
+    const double y = static_cast<double>(row) / kCells;
     const double bent_x = x + kBend * std::sin(kTurn * 3.0 * y + phase_x);
     const double bent_y = y + kBend * std::sin(kTurn * 2.0 * x + phase_y);
     for (const FoldedWave& wave : waves) height[i] += wave.at(bent_x, bent_y);

@@ -68,7 +68,7 @@ TofPixels expose(const IdealFrame& ideal, const PixelRays& rays, const SensorMod
     for (int u = 0; u < pixels.width_px; ++u) {
       const std::size_t i =
           static_cast<std::size_t>(v) * static_cast<std::size_t>(pixels.width_px) + static_cast<std::size_t>(u);
-      const double ideal_counts = ideal.amplitude_counts[i];
+      const auto ideal_counts = static_cast<double>(ideal.amplitude_counts[i]);
       const double variance =
           ideal_counts / sensor.electrons_per_count + sensor.read_noise_counts * sensor.read_noise_counts;
       // An amplitude is a length: what noise takes below zero comes out above.

@@ -80,7 +80,8 @@ TEST_F(TargetPipelineFaults, TheComputersClockSetBackIsReportedOnceAndStandsInTh
   EXPECT_THAT(pipeline_.clock_notice(now_ns()), HasSubstr("set back by 10800.0 s"));
   EXPECT_EQ(counter("clock.host_jumps"), 1);
   EXPECT_LT(poses().back().utime, before_us) << "at once, not in hours";
-  EXPECT_NEAR(static_cast<double>(poses().back().utime), static_cast<double>(arrival_at(ticks_, 0).utc_ns / 1000), 2e4);
+  const std::int64_t arrival_us = arrival_at(ticks_, 0).utc_ns / 1000;
+  EXPECT_NEAR(static_cast<double>(poses().back().utime), static_cast<double>(arrival_us), 2e4);
   EXPECT_EQ(list_.all<pose_t>("PHAROS_LIGHTHOUSE_POSE").size(),
             list_.all<bearings_t>("PHAROS_LIGHTHOUSE_BEARINGS").size());
 
@@ -106,7 +107,8 @@ TEST_F(TargetPipelineFaults, TheComputersClockSetForwardIsReportedToo) {
   utc_minus_monotonic_ns_ += 3600 * kSecond_ns;
   push_cycles(20);
   EXPECT_THAT(pipeline_.clock_notice(now_ns()), HasSubstr("set forward by 3600.0 s"));
-  EXPECT_NEAR(static_cast<double>(poses().back().utime), static_cast<double>(arrival_at(ticks_, 0).utc_ns / 1000), 2e4);
+  const std::int64_t arrival_us = arrival_at(ticks_, 0).utc_ns / 1000;
+  EXPECT_NEAR(static_cast<double>(poses().back().utime), static_cast<double>(arrival_us), 2e4);
 }
 
 TEST_F(TargetPipelineFaults, TheBoardsCountersDoNotWrap) {

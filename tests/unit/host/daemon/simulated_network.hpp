@@ -86,7 +86,7 @@ class SimulatedNetwork {
     }
     now_ns = end_ns;
   }
-  void send(const std::string& channel, std::vector<std::uint8_t> bytes) {
+  void send(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
     for (const auto& computer : computers_) {
       std::exponential_distribution<double> jitter(1.0 / jitter_ns);
       const std::int64_t arrival_ns = now_ns + std::llround(delay_ns + jitter(random));

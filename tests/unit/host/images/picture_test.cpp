@@ -60,9 +60,10 @@ TEST(Jpeg, GreyColourAndProgressiveAreRead) {
     EXPECT_EQ(picture.bits, 8);
     EXPECT_EQ(picture.channels, std::string(name) == "grey.jpg" ? 1 : 3);
     for (std::size_t k = 0; k < picture.pixels(); ++k) {
+      const std::size_t row = k / 21;
       for (std::size_t c = 0; c < static_cast<std::size_t>(picture.channels); ++c) {
         const double wanted =
-            8.0 * static_cast<double>(k % 21) + 3.0 * static_cast<double>(k / 21) + 20.0 * static_cast<double>(c);
+            8.0 * static_cast<double>(k % 21) + 3.0 * static_cast<double>(row) + 20.0 * static_cast<double>(c);
         ASSERT_NEAR(picture.values[k * static_cast<std::size_t>(picture.channels) + c] / 257.0, wanted, 20.0) << name;
       }
     }

@@ -116,7 +116,8 @@ TEST(RowWriter, AppendsTheCovarianceRowByRowAndNothingWhereThereIsNone) {
   TableReader table(ByteSource(file.path()), columns);
   ASSERT_TRUE(table.next());
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    EXPECT_EQ(table.number(k), 10.0 * static_cast<double>(k / 6) + static_cast<double>(k % 6)) << columns[k];
+    const std::size_t row = k / 6;
+    EXPECT_EQ(table.number(k), 10.0 * static_cast<double>(row) + static_cast<double>(k % 6)) << columns[k];
   }
   ASSERT_TRUE(table.next());
   for (std::size_t k = 0; k < columns.size(); ++k) EXPECT_TRUE(table.empty(k)) << "not that of the row before";

@@ -75,8 +75,8 @@ class SceneMaker {
   // One cell of the grid: a dot or a ring, cut where it lies at the border; in one of five a polygon instead.
   void fill_cell(Scene& scene, int cell) {
     constexpr double kSide_px = 100.0;
-    const double u = (cell % kColumns + uniform(0.4, 0.6)) * kSide_px,
-                 v = (cell / kColumns + uniform(0.4, 0.6)) * kSide_px;
+    const int row = cell / kColumns;
+    const double u = (cell % kColumns + uniform(0.4, 0.6)) * kSide_px, v = (row + uniform(0.4, 0.6)) * kSide_px;
     if (cell > 0 && uniform(0.0, 1.0) < 0.2) return add_polygon(scene, u, v);
     const bool at_border = uniform(0.0, 1.0) < 0.15;
     const double ratio = uniform(1.0, 2.0), b = std::exp(uniform(std::log(2.5), std::log(42.0 / ratio)));

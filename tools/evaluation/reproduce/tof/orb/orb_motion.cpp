@@ -40,7 +40,7 @@ cv::Mat picture(const TofPixels& frame) {
   cv::Mat sorted;
   cv::sort(grey.reshape(1, 1), sorted, cv::SORT_ASCENDING);
   const float white = sorted.at<float>(static_cast<int>(kBrightestFraction * (sorted.cols - 1)));
-  cv::sqrt(cv::min(grey / white, 1.0), grey);
+  cv::sqrt(cv::min(grey / static_cast<double>(white), 1.0), grey);
   cv::Mat result;
   grey.convertTo(result, CV_8U, kFullPicture);
   return result;
