@@ -27,14 +27,16 @@ template <class Flash>
 Verdict verify_in_memory(std::uint32_t flash_offset, std::span<const std::uint8_t, 32> verifier_sha256,
                          std::uint32_t verifier_bytes, std::span<const std::uint8_t> message,
                          const std::uint8_t* signature) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): an address of the memory map
   const std::span code(reinterpret_cast<std::uint8_t*>(kVerifierAddress), verifier_bytes);
   Flash::read(flash_offset, code);
   if (!signature::is_sha256(verifier_sha256, code)) return Verdict::kNoVerifier;
   // The data just written is executed next.
   asm volatile(".option push\n.option arch, +zifencei\nfence.i\n.option pop" ::: "memory");
   using Verifier = std::uint32_t (*)(const std::uint8_t* signature, const std::uint8_t* message, std::uint32_t bytes);
-  const auto verifier = reinterpret_cast<Verifier>(kVerifierAddress);
-  return verifier(signature, message.data(), message.size()) == 1 ? Verdict::kGood : Verdict::kBad;
+  const auto verifier = reinterpret_cast<Verifier>(kVerifierAddress);  // NOLINT(performance-no-int-to-ptr)
+  return verifier(signature, message.data(), static_cast<std::uint32_t>(message.size())) == 1 ? Verdict::kGood
+                                                                                              : Verdict::kBad;
 }
 
 }  // namespace pharos::boot
