@@ -9,6 +9,6 @@ build=$(realpath -m "$2")
 mkdir -p "$build"
 cmake -S "$root" -B "$build" --preset tidy -DCMAKE_CXX_CLANG_TIDY= \
   >"$build/configure.log" 2>&1 || { cat "$build/configure.log"; exit 1; }
-cmake --build "$build" --target pharos_lcm_generate >/dev/null 2>&1 || true
+cmake --build "$build" --target pharos_lcm_generate pharos_commit >/dev/null 2>&1 || true
 exec "$(dirname "$0")/tidy.py" "$root" "$build/compile_commands.json" "$build" "$3" \
   "${4:-^$root/(common|firmware|host|tools|tests)/}"
