@@ -133,7 +133,7 @@ Spin steady_spin(const Vector3& rate_rad_s, const Spin& fit) {
   const Vector3 off = rate_rad_s - fit.rate_rad_s;
   out.rate_rad_s = rate_rad_s;
   out.covariance += off * off.transpose();
-  out.turned_rad *= rate_rad_s.norm() / fit.rate();
+  if (fit.rate() > 0.0) out.turned_rad *= rate_rad_s.norm() / fit.rate();
   return out;
 }
 
