@@ -144,8 +144,7 @@ int run(Options options) {
   system->finish();
   const std::vector<slam::TrackedFrame> trajectory = system->trajectory();
   if (system->report().steady_rotation) {
-    note(
-        "rotation: steady (no attitude contradicts a constant rate about a fixed axis; --rotation free is without it)");
+    note("rotation: steady (nothing contradicts a constant rate about a fixed axis; --rotation free is without it)");
   }
   const int rows = write_poses({options.poses, options.output == "camera"}, trajectory);
   if (!options.map.empty()) write_map_ply(options.map, system->points());
@@ -177,10 +176,9 @@ void add_slam(CLI::App& app, int& exit_code) {
           "auto (default): as the pictures show; target: a body before dark or stillness; static: all of the image")
       ->check(CLI::IsMember({"auto", "target", "static"}));
   command
-      ->add_option(
-          "--rotation", options->rotation,
-          "Of a target: auto (default): at a constant rate about a fixed axis where no attitude contradicts it; "
-          "free: any")
+      ->add_option("--rotation", options->rotation,
+                   "Of a target: auto (default): at a constant rate about a fixed axis where nothing contradicts it; "
+                   "free: any")
       ->check(CLI::IsMember({"auto", "free"}));
   command
       ->add_option("--output", options->output,
