@@ -80,6 +80,14 @@ endif()
   endif()
 endfunction()
 
+# pharos_test_program(NAME KIND): what a program, or a library, that tests run is compiled with: cold, and with the
+# precompiled headers of KIND: cold, command (CLI11) or test (GoogleTest). It is in the folder of the tests.
+function(pharos_test_program name kind)
+  target_compile_options(${name} PRIVATE ${PHAROS_COLD_OPTIONS})
+  pharos_reads_headers(${name} ${kind})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+endfunction()
+
 # pharos_fuzz(NAME SOURCE file LIBS libraries...): an ordinary test that replays tests/fuzz/corpus/NAME through
 # LLVMFuzzerTestOneInput; all targets are in one program, fuzz_replay. If PHAROS_FUZZ is on, NAME is a libFuzzer program
 # (all of them: target `fuzzers`), and a test with the label long searches from that corpus for PHAROS_FUZZ_SECONDS.
@@ -107,7 +115,7 @@ function(pharos_fuzz name)
     # Object libraries with differently named entry functions, so that one program can link all of them.
     add_library(${name} OBJECT ${ARG_SOURCE})
     target_compile_definitions(${name} PRIVATE LLVMFuzzerTestOneInput=${name}_one_input)
-    pharos_reads_headers(${name} host)
+    pharos_test_program(${name} cold)
     set_property(GLOBAL APPEND PROPERTY PHAROS_FUZZ_TARGETS ${name})
     add_test(NAME ${replay} COMMAND fuzz_replay ${name} ${corpus})
   endif()
