@@ -56,7 +56,11 @@ class Chooser {
     const SeenConnector seen{face, face.edge_points > 0};
     // A thruster: its place counts as one that is not the plate's.
     if (face.is_round()) return;
-    if (seen.sure && face.rectangle.slenderness() > settings_.max_aspect) return;
+    if (seen.sure && face.rectangle.slenderness() > settings_.max_aspect) {
+      // Of a connector's shape by depth alone: noise, perhaps.
+      unclear_m_ = std::min(unclear_m_, seen.distance_m());
+      return;
+    }
     auto& list = result_.seen;
     if (!list.push_back(seen)) {
       if (list.back().distance_m() < seen.distance_m()) return;
@@ -88,7 +92,7 @@ class Chooser {
     const auto count = static_cast<std::int32_t>(seen.size());
     if (count == 0) return ConnectorDoubt::kNoneSeen;
     if (count > settings_.expected) return ConnectorDoubt::kMore;
-    if (unclear_m_ < seen[0].distance_m()) return ConnectorDoubt::kUnclear;
+    if (unclear_m_ < seen[0].distance_m() || !workspace_.complete) return ConnectorDoubt::kUnclear;
     for (const SeenConnector& other : seen) {
       if (!alike(seen[0], other)) return ConnectorDoubt::kUnlike;
     }
@@ -97,7 +101,10 @@ class Chooser {
     if (count < settings_.expected) {
       return nearer_places_are_plate() ? ConnectorDoubt::kNone : ConnectorDoubt::kHidden;
     }
-    return something_stands_nearer() ? ConnectorDoubt::kUnclear : ConnectorDoubt::kNone;
+    // A single one may be a cover here too.
+    const bool stands = something_stands_nearer(seen_half_m()) ||
+                        (count == 1 && something_stands_nearer(kConnectorPerCover * seen_half_m()));
+    return stands ? ConnectorDoubt::kUnclear : ConnectorDoubt::kNone;
   }
 
   bool alike(const SeenConnector& a, const SeenConnector& b) const {
@@ -137,10 +144,9 @@ class Chooser {
     return !any_nearer_place(kMinConnectorDistance * ring_.model.radius_m[0], half_m,
                              [](const Vector2&, double log_odds) { return log_odds > kPlateCertain; });
   }
-  // Whether something as high and wide as the nearest one stands nearer, and is none of the boxes found.
-  bool something_stands_nearer() const {
+  // Whether something as high as the nearest one and so wide stands nearer, and is none of the boxes found.
+  bool something_stands_nearer(double half_m) const {
     // Clear of the nozzle and of its walls in sight.
-    const double half_m = seen_half_m();
     const double nearest_m = kClearOfNozzle * ring_.model.radius_m[0] + 2.0 * half_m;
     return any_nearer_place(nearest_m, half_m, [&](const Vector2& place, double log_odds) {
       if (log_odds < kStands || beside_wall(place.norm(), half_m) || beside_hidden(place, half_m)) return false;

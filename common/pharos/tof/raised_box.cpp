@@ -32,13 +32,16 @@ constexpr double kPlateWithin_m = 0.03;
 // Of the plate's median height.
 constexpr int kMedianPasses = 4;
 constexpr double kMedianSettled_m = 0.0002;
-// Seeds looked at: specks take one each.
+// Seeds looked at, some 0.2 ms each: specks take one each, the walls of a thruster dozens.
 constexpr int kMaxSeeds = 24;
+// Of connected raised cells so many are looked at before the rest is known to be scraps of what was found there.
+constexpr int kEnoughTries = 4;
 // Cells beside something before the satellite whose pixels are mixed with it.
 constexpr int kMixedCells = 2;
 
-// A raised cell becomes a seed once the cells connected to it are known.
-enum State : std::uint8_t { kFlat, kRaised, kSeed, kTaken };
+// A raised cell becomes a seed once the cells connected to it are known: its state is then kSeed or more, the same for
+// all of them.
+enum State : std::uint8_t { kFlat, kRaised, kTaken, kSeed };
 
 class BoxFinder {
  public:
@@ -55,8 +58,10 @@ class BoxFinder {
     for (int k = 0; k < kMaxSeeds && !workspace_.boxes.full(); ++k) {
       const int seed = best_seed();
       if (seed < 0) break;
+      ++tries_[workspace_.state[static_cast<std::size_t>(seed)]];
       add_box(seed % kMaxGridSide, seed / kMaxGridSide);
     }
+    workspace_.complete = !is_any_left();
   }
 
  private:
@@ -141,6 +146,8 @@ class BoxFinder {
 
   // Takes connected raised cells that are too large for a box.
   void take_structures() {
+    component_ = kSeed;
+    tries_.fill(0);
     for_some_cells(1, [&](int column, int row) {
       const std::size_t cell = ReliefGrid::index(column, row);
       if (workspace_.state[cell] == kRaised) take_if_structure(column, row);
@@ -154,7 +161,7 @@ class BoxFinder {
       if (u < 0 || v < 0 || u >= grid_.side() || v >= grid_.side()) return;
       const std::size_t cell = ReliefGrid::index(u, v);
       if (workspace_.state[cell] != kRaised) return;
-      workspace_.state[cell] = kSeed;
+      workspace_.state[cell] = component_;
       front[count++] = static_cast<std::uint16_t>(cell);
     };
     visit(column, row);
@@ -169,7 +176,10 @@ class BoxFinder {
       visit(u, v - 1);
       visit(u, v + 1);
     }
-    if (grid_.cell_m() * std::max(right - left, bottom - top) < kMaxBox_m) return;
+    if (grid_.cell_m() * std::max(right - left, bottom - top) < kMaxBox_m) {
+      if (component_ < kLastComponent) ++component_;
+      return;
+    }
     for (std::size_t k = 0; k < count; ++k) workspace_.state[front[k]] = kTaken;
   }
 
@@ -177,7 +187,7 @@ class BoxFinder {
     seeds_ = 0;
     for_some_cells(1, [&](int column, int row) {
       const std::size_t cell = ReliefGrid::index(column, row);
-      if (workspace_.state[cell] != kSeed) return;
+      if (workspace_.state[cell] < kSeed) return;
       if (beside_hidden(column, row)) {
         workspace_.state[cell] = kTaken;
       } else {
@@ -185,16 +195,27 @@ class BoxFinder {
       }
     });
   }
+  // Connected cells take turns, so that a thruster's walls do not keep a connector from being looked at.
   int best_seed() const {
-    int best = -1;
+    int best = -1, fewest = kMaxSeeds;
     float most = 0.0F;
     for (std::size_t k = 0; k < seeds_; ++k) {
       const std::uint16_t cell = workspace_.front[k];
-      if (workspace_.state[cell] != kSeed || workspace_.significance[cell] <= most) continue;
+      const std::uint8_t state = workspace_.state[cell];
+      if (state < kSeed || tries_[state] > fewest) continue;
+      if (tries_[state] == fewest && workspace_.significance[cell] <= most) continue;
+      fewest = tries_[state];
       most = workspace_.significance[cell];
       best = cell;
     }
     return best;
+  }
+  bool is_any_left() const {
+    return std::any_of(workspace_.front.begin(), workspace_.front.begin() + static_cast<std::ptrdiff_t>(seeds_),
+                       [&](std::uint16_t cell) {
+                         const std::uint8_t state = workspace_.state[cell];
+                         return state >= kSeed && tries_[state] < kEnoughTries;
+                       });
   }
 
   void add_box(int column, int row) {
@@ -309,6 +330,9 @@ class BoxFinder {
   const ReliefGrid& grid_;
   int half_ = 1;
   std::size_t seeds_ = 0;  // cells listed in workspace_.front
+  static constexpr std::uint8_t kLastComponent = 255;
+  std::uint8_t component_ = kSeed;
+  std::array<std::uint8_t, kLastComponent + 1> tries_{};  // by the state of connected cells
   std::array<float, ReliefGrid::kMaxCells / 9 + static_cast<std::size_t>(kMaxGridSide)> samples_;
 };
 

@@ -41,6 +41,7 @@ struct RaisedWorkspace {
   double outer_base_m = 0.0;  ///< the same outside
   double noise_m = 0.0;       ///< of a cell's height, times the root of its weight; correlation included
   StaticVector<RaisedBox, kMaxRaised> boxes;
+  bool complete = true;  ///< false: raised places are left that were not looked at
   std::array<std::uint8_t, ReliefGrid::kMaxCells> state{};
   std::array<std::uint16_t, ReliefGrid::kMaxCells> front{};
   std::array<float, ReliefGrid::kMaxCells> significance{};
