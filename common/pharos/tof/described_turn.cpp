@@ -18,6 +18,8 @@ constexpr double kLikeDescribed = 1.35;
 constexpr double kLengthPerCentre = 2.0;
 // A side that differs from the described one by more than this many deviations has an edge that is not its own.
 constexpr double kSideGate = 2.0;
+// And beside it: rounded corners, a rim.
+constexpr double kSizeMargin_m = 0.003;
 // What one connector can say at most for or against a turn, as the logarithm of odds. One that is absent in plain sight
 // says less: bodies differ from drawings, and any one connector gives the turn.
 constexpr double kMaxFor = 15.0;
@@ -80,17 +82,32 @@ class TurnFinder {
   // Where a side's length is wrong, a wall or a shadow was taken for one of its edges: half of what it differs by is an
   // error of the centre.
   static void add_side_errors(const Vector2& described_m, ConnectorFace& face) {
-    const Vector2 sides = 2.0 * face.rectangle.half_sides_m;
-    const Vector2 off = sides - described_m, turned = sides - Vector2(described_m.y(), described_m.x());
-    const Vector2& least = off.squaredNorm() <= turned.squaredNorm() ? off : turned;
+    const Vector2 off_m = side_errors(described_m, face);
     Matrix2 more = Matrix2::Zero();
     for (int side = 0; side < 2; ++side) {
       const Vector2 along = face.rectangle.outward(side);
-      const double sigma_m = kLengthPerCentre * std::sqrt(along.dot(face.covariance * along));
-      if (std::fabs(least[side]) > kSideGate * sigma_m)
-        more += 0.25 * least[side] * least[side] * along * along.transpose();
+      if (std::fabs(off_m[side]) > kSideGate * side_sigma(face, side))
+        more += 0.25 * off_m[side] * off_m[side] * along * along.transpose();
     }
     face.covariance += more;
+  }
+  // Of the fitted sides' lengths, whichever is which.
+  static Vector2 side_errors(const Vector2& described_m, const ConnectorFace& face) {
+    const Vector2 sides = 2.0 * face.rectangle.half_sides_m;
+    const Vector2 off = sides - described_m, turned = sides - Vector2(described_m.y(), described_m.x());
+    return off.squaredNorm() <= turned.squaredNorm() ? off : turned;
+  }
+  static double side_sigma(const ConnectorFace& face, int side) {
+    const Vector2 along = face.rectangle.outward(side);
+    return kLengthPerCentre * std::sqrt(along.dot(face.covariance * along));
+  }
+  // By its edges, not by depth alone. A wall or a shadow may stand for one edge; two sides that are both of another
+  // length are another thing's, as are corners that are more like a disc's.
+  static bool is_shaped_like(const ConnectorFace& face, const DescribedConnector& described) {
+    const Vector2 off_m = side_errors(described.size_m, face);
+    return face.edge_points > 0 && face.squareness > 0.5 &&
+           (std::fabs(off_m[0]) < kSizeMargin_m + kGate * side_sigma(face, 0) ||
+            std::fabs(off_m[1]) < kSizeMargin_m + kGate * side_sigma(face, 1));
   }
 
   static bool same_turn(const Hypothesis& a, const Hypothesis& b) {
@@ -176,7 +193,7 @@ class TurnFinder {
       // The turn is that of one of them, whose own error moves the others' places.
       if (!could_be(face, described) || (face.rectangle.centre_m - place).norm() > 2.0 * gate_m(face, described))
         continue;
-      most = std::max(most, face.edge_points > 0 ? kMaxFor : kMaxForByDepth);
+      most = std::max(most, is_shaped_like(face, described) ? kMaxFor : kMaxForByDepth);
     }
     return most;
   }

@@ -106,10 +106,13 @@ TargetPose target_pose(const RingFit& ring, const ConnectorFace& face) {
   return result;
 }
 
-TargetPose target_pose(const RingFit& ring, const ConnectorFace& face, double direction_rad) {
+TargetPose target_pose(const RingFit& ring, const ConnectorFace& face, double direction_rad,
+                       double direction_sigma_rad) {
   TargetPose result = target_pose(ring, face);
   // About Z': the error, in the camera frame, is that of the direction to the connector.
   result.pose.R = result.pose.R * about_z(-direction_rad);
+  const Vector3& normal = ring.model.normal;
+  result.covariance.topLeftCorner<3, 3>() += direction_sigma_rad * direction_sigma_rad * normal * normal.transpose();
   return result;
 }
 

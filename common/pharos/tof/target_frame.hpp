@@ -33,8 +33,10 @@ struct TargetPose {
 /// With a connector: six degrees of freedom. The uncertainty of its position and the ring's enter the turn about Z'.
 TargetPose target_pose(const RingFit& ring, const ConnectorFace& face);
 
-/// The same with a connector whose direction from the ring's centre, in T, is `direction_rad` from X' towards Y'.
-TargetPose target_pose(const RingFit& ring, const ConnectorFace& face, double direction_rad);
+/// The same with a connector whose direction from the ring's centre, in T, is `direction_rad` from X' towards Y', known
+/// to `direction_sigma_rad`.
+TargetPose target_pose(const RingFit& ring, const ConnectorFace& face, double direction_rad,
+                       double direction_sigma_rad);
 
 /// Without one: five. X' is as near to the camera's x axis as possible, and the variance about Z' is that of a uniform
 /// angle, pi^2 / 3.

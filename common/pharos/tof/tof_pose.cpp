@@ -52,8 +52,9 @@ void add_described(const TofFrame& frame, const DepthCamera& camera, const TofSe
     return;
   }
   const auto pose_by = [&](const IdentifiedConnector& one) {
-    const Vector2& place = settings.target.connectors[one.described].place_m;
-    return target_pose(ring, one.face, std::atan2(place.y(), place.x()));
+    const DescribedConnector& described = settings.target.connectors[one.described];
+    const Vector2& place = described.place_m;
+    return target_pose(ring, one.face, std::atan2(place.y(), place.x()), described.sigma_place_m / place.norm());
   };
   result.connector = turn->best.face;
   result.target = pose_by(turn->best);

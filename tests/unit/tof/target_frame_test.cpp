@@ -94,6 +94,21 @@ TEST(TargetFrame, CovarianceCarriesAllThatWasUncertain) {
   EXPECT_NEAR(std::sqrt(target.covariance(5, 5)), 5e-4, 1e-9);
 }
 
+TEST(TargetFrame, ADescribedDirectionTurnsTheFrameAndItsErrorIsOneOfTheTurn) {
+  const Matrix3 R = attitude_of(degrees(12.0, -20.0, 70.0));
+  const RingFit ring = some_ring(R, Vector3(0.1, -0.2, 3.4));
+  constexpr double kDirection = 0.8, kDirectionSigma = 3e-3;
+  const Vector3 place(0.66 * std::cos(kDirection), 0.66 * std::sin(kDirection), -0.03);
+  const ConnectorFace face = face_at(ring, ring.model.centre_m + R * place);
+  const TargetPose exact = target_pose(ring, face, kDirection, 0.0);
+  const TargetPose stated = target_pose(ring, face, kDirection, kDirectionSigma);
+  EXPECT_LT((exact.pose.R - R).norm(), 1e-9);
+  EXPECT_EQ(exact.pose.R, stated.pose.R);
+  const Matrix3 more = (stated.covariance - exact.covariance).topLeftCorner<3, 3>();
+  EXPECT_LT((more - kDirectionSigma * kDirectionSigma * R.col(2) * R.col(2).transpose()).norm(),
+            1e-9 * kDirectionSigma * kDirectionSigma);
+}
+
 TEST(TargetFrame, WithoutAConnectorTheTurnIsAnyAndTheRestIsKnown) {
   const Matrix3 R = attitude_of(degrees(12.0, -20.0, 70.0));
   const RingFit ring = some_ring(R, Vector3(0.1, -0.2, 3.4));
