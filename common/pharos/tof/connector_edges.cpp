@@ -7,6 +7,9 @@
 #include "pharos/geometry/positive_inverse.hpp"
 #include "pharos/tof/constants.hpp"
 #include "pharos/tof/face_shape.hpp"
+#include "pharos/tof/median.hpp"
+#include "pharos/tof/outline_scatter.hpp"
+#include "pharos/tof/top_height.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -36,8 +39,17 @@ constexpr double kOutside_px = 2.5;
 constexpr std::size_t kMaxFacePixels = 3000;
 // A pixel darker than this fraction of the ring and without depth is dark background.
 constexpr double kDarkFraction = 0.3;
+// And of the top: brighter, it may as well be a pixel of the top that lost its depth.
+constexpr double kDarkOfTop = 0.5;
+// Foil's relief is noise of the layer in proportion to a pixel's light. Up to so much of the top's light it is within
+// what is measured of all pixels.
+constexpr double kBrightOfTop = 1.5;
+// Pixels with depth that the noise is measured from.
+constexpr std::size_t kMinMeasuredPixels = 12;
 // Residuals larger than this many deviations count as much as one of that size (Huber).
 constexpr double kHuber = 1.5;
+// And in the sums along the outline, which tell what neighbouring pixels share.
+constexpr double kOutlier = 3.0;
 // A wall's brightness over the cosine law's is that of the ring's walls to within this.
 constexpr double kWallSigma = 0.3;
 // Sides differ by this fraction (1 sigma): the paper's limits of 0.7 and 1.5 are 2.5 such deviations.
@@ -52,12 +64,6 @@ constexpr double kMaxSideChange = 1.5;
 constexpr double kMaxMove_px = 2.5;
 // Scatter of the pixels over the top's brightness: beyond it there is no rectangle.
 constexpr double kMaxScatter = 0.5;
-
-double median(double* values, std::size_t count) {
-  double* middle = values + count / 2;
-  std::nth_element(values, middle, values + count);
-  return *middle;
-}
 
 class FaceFitter {
  public:
@@ -76,7 +82,7 @@ class FaceFitter {
   ConnectorFace fit() {
     ConnectorFace face;
     face.rectangle = box_.rectangle;
-    measure_height(face);
+    measure_top(face);
     metres_per_px_ = ring_.centre_m.z() / camera_.intrinsics.fx_px;
     const double coarse = kCoarseSigma_px * metres_per_px_ / std::max(0.3, -ring_.normal.z());
     face.covariance = coarse * coarse * Matrix2::Identity();
@@ -86,49 +92,15 @@ class FaceFitter {
   }
 
  private:
-  // The top from its inner pixels, the plate from the box's surroundings.
-  void measure_height(ConnectorFace& face) {
-    constexpr int kGrid = 9;
-    std::array<double, kGrid * kGrid> heights{};
-    std::size_t count = 0;
-    const PlanarRectangle& r = face.rectangle;
-    for (int i = 0; i < kGrid; ++i) {
-      for (int j = 0; j < kGrid; ++j) {
-        const double s = 0.7 * (2.0 * i / (kGrid - 1) - 1.0) * r.half_sides_m.x();
-        const double t = 0.7 * (2.0 * j / (kGrid - 1) - 1.0) * r.half_sides_m.y();
-        double height = 0.0;
-        if (height_at(r.centre_m + s * r.outward(0) + t * r.outward(1), box_.height_m, height)) {
-          heights[count++] = height;
-        }
-      }
+  void measure_top(ConnectorFace& face) {
+    const TopHeight top = top_height_of(frame_, camera_, rays_, ring_, box_);
+    face.height_m = top.height_m;
+    face.sigma_height_m = top.sigma_height_m;
+    base_m_ = top.base_m;
+    if (top.light > 0.0) {
+      dark_counts_ = std::min(dark_counts_, kDarkOfTop * top.light);
+      bright_counts_ = kBrightOfTop * top.light;
     }
-    base_m_ = box_.base_m;
-    face.height_m = box_.height_m;
-    face.sigma_height_m = 0.25 * box_.step_m();
-    if (count > 8) {
-      face.height_m = median(heights.data(), count);
-      for (std::size_t i = 0; i < count; ++i) heights[i] = std::fabs(heights[i] - face.height_m);
-      const double spread = kMedianToSigma * median(heights.data(), count);
-      // Noise is correlated between samples: a seventh of them count. A median is noisier than a mean by 1.25.
-      face.sigma_height_m = 1.25 * spread / std::sqrt(std::max(1.0, static_cast<double>(count) / 7.0));
-    }
-    measure_base(face);
-  }
-  void measure_base(const ConnectorFace& face) {
-    constexpr int kAround = 64;
-    std::array<double, kAround> feet{};
-    std::size_t found = 0;
-    const double halfway = 0.5 * (box_.height_m + box_.base_m);
-    for (int k = 0; k < kAround; ++k) {
-      const double angle = kTwoPi * k / kAround;
-      const Vector2 place = face.rectangle.centre_m +
-                            1.9 * face.rectangle.half_sides_m.maxCoeff() * Vector2(std::cos(angle), std::sin(angle));
-      double height = 0.0;
-      if (height_at(place, box_.base_m, height) && height < halfway && height > box_.base_m - box_.step_m()) {
-        feet[found++] = height;
-      }
-    }
-    if (found > kAround / 4) base_m_ = median(feet.data(), found);
   }
 
   Vector3 point(const Vector2& planar, double height) const {
@@ -139,17 +111,6 @@ class FaceFitter {
     const Vector3 arm = z * Vector3(ray.x(), ray.y(), 1.0) - ring_.centre_m;
     return {axes_.first.dot(arm), axes_.second.dot(arm)};
   }
-  // Height of the pixel at a plan position: false where it has none.
-  bool height_at(const Vector2& plan, double height, double& result) const {
-    const auto pixel = project(camera_.intrinsics, point(plan, height));
-    if (!pixel) return false;
-    const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
-    const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
-    if (!frame_.depth.contains(u, v) || !has_depth(frame_.depth.at(u, v))) return false;
-    result = plane_.height_m(rays_.at(u, v), depth_z_m(camera_, frame_.depth.at(u, v)));
-    return true;
-  }
-
   // Pixels' size and walls' slope at the box.
   bool prepare(const ConnectorFace& face) {
     const Vector3 middle = point(face.rectangle.centre_m, face.height_m);
@@ -185,14 +146,16 @@ class FaceFitter {
         if (light == kFullScale) continue;
         const Vector2 ray = rays_.at(u, v);
         double layer = 0.0;
-        if (has_depth(depth)) {
+        const bool measured = has_depth(depth);
+        if (measured) {
           const double over = (plane_.height_m(ray, depth_z_m(camera_, depth)) - base_m_) / step;
           if (over > 2.0) continue;  // something before the satellite
           layer = light * std::max(over, -1.0);
         } else if (light > dark_counts_) {
           continue;
         }
-        if (!pixels_.push_back({planar(ray, face.height_m), layer})) return;
+        const double weight = std::min(1.0, bright_counts_ / std::max<double>(light, 1.0));
+        if (!pixels_.push_back({planar(ray, face.height_m), layer, weight, measured})) return;
       }
     }
   }
@@ -222,6 +185,7 @@ class FaceFitter {
       one.rectangle.angle_rad += k * 0.5 * kPi / kStartTurns;
       blur_px_ = kBlur_px;
       if (!refine(one) || !follows_box(one)) continue;
+      one.covariance += (shared_ - 1.0) * (one.covariance - one.common_variance_m2 * Matrix2::Identity());
       if (unit == 0.0) unit = sigma_;
       const double loss = mean_loss(static_cast<std::size_t>(one.edge_points), unit);
       if (least > 0.0 && loss >= least) continue;
@@ -248,23 +212,27 @@ class FaceFitter {
     double brightness = starting_brightness(r);
     if (!(brightness > 0.0)) return false;
     double sigma = 0.3 * brightness;
+    OutlineScatter scatter;
     for (int round = 0; round < kRounds; ++round) {
       Matrix9 normal = Matrix9::Zero();
       Vector9 right = Vector9::Zero();
-      std::size_t used = 0;
+      std::size_t used = 0, measured = 0;
       const FaceSides sides = sides_of(r);
       for (const FacePixel& p : pixels_) {
         Vector9 row;
         double residual = 0.0;
         if (!observe(p, r, sides, walls, brightness, row, residual)) continue;
         const double size = std::fabs(residual);
-        residuals_[used++] = size;
+        residuals_[used] = size;
+        if (p.measured) std::swap(residuals_[measured++], residuals_[used]);  // these come first
+        ++used;
+        if (round + 1 == kRounds) add_to(scatter, p, r, sides, row, residual, sigma);
         const double weight = size > kHuber * sigma ? kHuber * sigma / size : 1.0;
         add_outer<9>(normal, row, weight);
         right += weight * residual * row;
       }
-      if (used < 24) return false;
-      sigma = std::max(1e-3 * brightness, kMedianToSigma * median(residuals_.data(), used));
+      if (used < 24 || measured < kMinMeasuredPixels) return false;
+      sigma = std::max(1e-3 * brightness, kMedianToSigma * median(residuals_.data(), measured));
       const double unit = 1.0 / (sigma * sigma);
       normal *= unit;
       right *= unit;
@@ -301,15 +269,26 @@ class FaceFitter {
       blur_px_ = kBlur_px * std::exp(std::clamp(blurred + change[kBlur], -0.8, 0.8));
       brightness = std::clamp(brightness + change[kBrightness], 0.5 * brightness, 2.0 * brightness);
       face.edge_points = static_cast<std::int32_t>(used);
-      const double common = kSilhouetteSigma_px * metres_per_px_;
-      face.common_variance_m2 = common * common;
-      face.covariance = kFaceCorrelation * inverse->topLeftCorner<2, 2>() + common * common * Matrix2::Identity();
+      face.covariance = inverse->topLeftCorner<2, 2>();
     }
+    const double common = kSilhouetteSigma_px * metres_per_px_;
+    face.common_variance_m2 = common * common;
+    face.covariance = kFaceCorrelation * face.covariance + common * common * Matrix2::Identity();
+    shared_ = std::max(1.0, scatter.ratio(sigma) / kFaceCorrelation);
     brightness_ = brightness;
     sigma_ = sigma;
     // An edge falls by 0.4 of the brightness over a blur's deviation.
     face.edge_rms_px = sigma / brightness * blur_px_ / 0.4;
     return sigma < kMaxScatter * brightness;
+  }
+
+  void add_to(OutlineScatter& scatter, const FacePixel& p, const PlanarRectangle& r, const FaceSides& sides,
+              const Vector9& row, double residual, double sigma) const {
+    const Vector2 off = p.place_m - r.centre_m;
+    const Vector2 at = Vector2(sides.first.dot(off), sides.second.dot(off)).cwiseQuotient(r.half_sides_m);
+    const int axis = std::fabs(at.x()) > std::fabs(at.y()) ? 0 : 1;
+    scatter.add(axis + (at[axis] > 0.0 ? 2 : 0), at[1 - axis], row[3 + axis],
+                std::clamp(residual, -kOutlier * sigma, kOutlier * sigma));
   }
 
   static Vector2 limited(const Vector2& by, double most) {
@@ -348,7 +327,8 @@ class FaceFitter {
         by_s * t - by_t * s, brightness * x.by_half * y.value, brightness * x.value * y.by_half, cover,
         brightness * x.by_wall * y.value, brightness * x.value * y.by_wall,
         brightness * (x.by_blur * y.value + x.value * y.by_blur);
-    residual = p.layer - brightness * cover;
+    row *= p.weight;
+    residual = p.weight * (p.layer - brightness * cover);
     return true;
   }
 
@@ -371,11 +351,13 @@ class FaceFitter {
   PlaneAxes axes_;
   DepthPlane plane_;
   double dark_counts_;
+  double bright_counts_ = 1e9;
   WallLight wall_light_;
   const RaisedBox& box_;
   double base_m_ = 0.0;
   double metres_per_px_ = 0.0;
   double blur_px_ = kBlur_px, brightness_ = 0.0, sigma_ = 0.0;
+  double shared_ = 1.0;  // variance by noise that pixels share, over what kFaceCorrelation says
   Vector2 middle_px_ = Vector2::Zero();
   Matrix2 per_pixel_ = Matrix2::Identity();  // d place in the top's plane / d pixel
   Vector2 foot_ = Vector2::Zero();

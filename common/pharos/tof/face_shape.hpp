@@ -12,6 +12,8 @@ namespace pharos::tof {
 struct FacePixel {
   Vector2 place_m = Vector2::Zero();
   double layer = 0.0;
+  double weight = 1.0;   ///< noise of the face's own pixels over this one's
+  bool measured = true;  ///< false: a dark pixel without depth, taken for background; it tells nothing of the noise
 };
 
 /// Profiles across a face along both its sides' directions.
