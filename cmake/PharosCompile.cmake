@@ -177,6 +177,12 @@ function(pharos_command_library name)
   pharos_reads_headers(${name} command)
 endfunction()
 
+# pharos_cold_main(TARGET): a program whose own source reads its command line and calls.
+function(pharos_cold_main target)
+  target_compile_options(${target} PRIVATE ${PHAROS_COLD_OPTIONS})
+  pharos_reads_headers(${target} command)
+endfunction()
+
 # pharos_installed_program(TARGET): position independent; all symbols are resolved before main and read-only afterwards.
 function(pharos_installed_program target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
