@@ -3,7 +3,8 @@
 
 # emulate IMAGE LINE [QEMU-OPTION...]: runs an image with the capture block's words from standard input
 # (firmware/board/qemu_virt/capture_replay.hpp) until they end; what its UART says goes to the file LINE. An instruction
-# takes 1 ns of the emulator's time; what is decoded is repeatable (firmware/README.md: what is not). Its exit code is that of the image, 124 when it hangs.
+# takes 1 ns of the emulator's time; what is decoded is repeatable (firmware/README.md: what is not). Its exit code is
+# that of the image, 124 when it hangs.
 emulate() {
   local image=$1 line=$2
   shift 2
