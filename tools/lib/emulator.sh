@@ -2,8 +2,9 @@
 # The decoder board, emulated. Sourced by scripts.
 
 # emulate IMAGE LINE [QEMU-OPTION...]: runs an image with the capture block's words from standard input
-# (firmware/board/qemu_virt/capture_replay.hpp) until they end; what its UART says goes to the file LINE. Repeatable: an
-# instruction takes 1 ns of the emulator's time. Its exit code is that of the image, 124 when it hangs.
+# (firmware/board/qemu_virt/capture_replay.hpp) until they end; what its UART says goes to the file LINE. An instruction
+# takes 1 ns of the emulator's time; what is decoded is repeatable (firmware/README.md: what is not). Its exit code is
+# that of the image, 124 when it hangs.
 emulate() {
   local image=$1 line=$2
   shift 2

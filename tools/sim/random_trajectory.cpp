@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
@@ -12,6 +14,7 @@ namespace {
 
 constexpr int kSines = 3;
 constexpr double kSampleStep_s = 0.01;
+constexpr int kRounds = 20;  // of a limit's search
 
 // A wandering coordinate within [-1, 1].
 struct Wander {
@@ -51,44 +54,52 @@ class ManoeuvreTrajectory final : public Trajectory {
 
   RoomFromBody at(double time_s) const override {
     const Vector3 position = position_at(time_s * position_pace_);
-    const double time = time_s * turning_pace_;
-    const double tilt = limits_.tilt_deg * kRadPerDeg;
-    const Matrix3 turn = rotation_exp(Vector3(tilt * tilt_[0].at(time), tilt * tilt_[1].at(time), 0.0)) *
-                         rotation_exp(Vector3(0.0, 0.0, kTwoPi * roll_.at(time)));
-    return {facing_origin(position) * turn, position};
+    return {facing_origin(position) * turn_at(time_s * turning_pace_), position};
   }
 
   void scale_to_limits(double duration_s) {
     // The maximum speed grows with the scale of time, but a faster flight also covers more of its path: a few
     // iterations converge.
-    for (int round = 0; round < 20; ++round) {
-      const double top =
-          greatest(duration_s, [](const RoomFromBody& a, const RoomFromBody& b) { return (b.t - a.t).norm(); });
-      position_pace_ *= limits_.speed_m_s / std::max(top, 1e-9);
+    const auto samples = static_cast<int>(duration_s / kSampleStep_s);
+    std::vector<Vector3> positions(static_cast<std::size_t>(samples) + 1);
+    for (int round = 0; round <= kRounds; ++round) {
+      for (int k = 0; k <= samples; ++k) {
+        positions[static_cast<std::size_t>(k)] = position_at(k * kSampleStep_s * position_pace_);
+      }
+      if (round < kRounds) position_pace_ *= limits_.speed_m_s / std::max(top_speed(positions), 1e-9);
     }
     double low = 0.0;
     double high = 100.0;
-    for (int halving = 0; halving < 20; ++halving) {
+    for (int halving = 0; halving < kRounds; ++halving) {
       turning_pace_ = 0.5 * (low + high);
-      const double top = greatest(
-          duration_s, [](const RoomFromBody& a, const RoomFromBody& b) { return rotation_angle_between(a.R, b.R); });
-      (top > limits_.rate_deg_s * kRadPerDeg ? high : low) = turning_pace_;
+      (turns_faster(positions, limits_.rate_deg_s * kRadPerDeg) ? high : low) = turning_pace_;
     }
     turning_pace_ = low;
   }
 
  private:
-  template <class Distance>
-  double greatest(double duration_s, Distance distance) const {
+  static double top_speed(const std::vector<Vector3>& positions) {
     double top = 0.0;
-    RoomFromBody before = at(0.0);
-    const auto samples = static_cast<int>(duration_s / kSampleStep_s);
-    for (int sample = 1; sample <= samples; ++sample) {
-      const RoomFromBody now = at(sample * kSampleStep_s);
-      top = std::max(top, distance(before, now) / kSampleStep_s);
-      before = now;
+    for (std::size_t k = 1; k < positions.size(); ++k) {
+      top = std::max(top, (positions[k] - positions[k - 1]).norm() / kSampleStep_s);
     }
     return top;
+  }
+
+  bool turns_faster(const std::vector<Vector3>& positions, double rate_rad_s) const {
+    Matrix3 before;
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+      const Matrix3 R = facing_origin(positions[k]) * turn_at(static_cast<double>(k) * kSampleStep_s * turning_pace_);
+      if (k > 0 && rotation_angle_between(before, R) / kSampleStep_s > rate_rad_s) return true;
+      before = R;
+    }
+    return false;
+  }
+
+  Matrix3 turn_at(double time) const {
+    const double tilt = limits_.tilt_deg * kRadPerDeg;
+    return rotation_exp(Vector3(tilt * tilt_[0].at(time), tilt * tilt_[1].at(time), 0.0)) *
+           rotation_exp(Vector3(0.0, 0.0, kTwoPi * roll_.at(time)));
   }
 
   // The field of view limits the volume laterally, by a smooth function so that the acceleration is continuous.

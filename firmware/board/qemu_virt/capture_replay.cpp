@@ -33,6 +33,8 @@ bool CaptureReplay::fetch() {
   while (count_ < bytes.size()) {
     const auto come = console_.read(bytes.size() - count_);
     waiting_ = come.empty();
+    // A tape with a core's speed is whole: waiting for the rest of it, for however long, changes no frame.
+    if (waiting_ && speed_ != 0) continue;
     if (waiting_) return false;
     for (const volatile std::uint8_t& byte : come) bytes[count_++] = std::byte{byte};
     if (count_ < bytes.size()) continue;

@@ -21,6 +21,7 @@ namespace pharos::board {
 /// Time does not advance between two of them: it is the block's and not the emulator's, so that the same tape always
 /// gives the same frames. With a core's speed it advances with the instructions (except those that read the tape): a
 /// record can be read no earlier than such a core would have found it, and a program that is too slow falls behind.
+/// Such a tape is read from a file: where words are late, the program waits for them in no time of the core's.
 class CaptureReplay final : public hal::EdgeCapture {
  public:
   /// Waits for the first words, so that the program starts with the tape's time.

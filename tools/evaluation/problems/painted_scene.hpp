@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <variant>
@@ -140,7 +141,10 @@ inline std::vector<std::uint16_t> photographed(const std::vector<double>& light,
 class PaintedScene {
  public:
   explicit PaintedScene(PaintedCamera camera, double background) : camera_(camera), background_(background) {}
-  void add(Layer layer) { layers_.push_back(std::move(layer)); }
+  void add(Layer layer) {
+    boxes_.push_back(box_of(layer));
+    layers_.push_back(std::move(layer));
+  }
   const PaintedCamera& camera() const { return camera_; }
 
   /// Grey values 0 to 65535, row by row.
@@ -150,12 +154,31 @@ class PaintedScene {
   /// Uppermost layer at a position; -1 is the background.
   int layer_at(double u, double v) const {
     for (std::size_t k = layers_.size(); k-- > 0;) {
-      if (layers_[k].covers(camera_, u, v)) return static_cast<int>(k);
+      if (boxes_[k].contains(u, v) && layers_[k].covers(camera_, u, v)) return static_cast<int>(k);
     }
     return -1;
   }
 
  private:
+  static constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  // Around a polygon, whose sides take longer to look at; a disc's is everything.
+  struct Box {
+    std::array<double, 2> low{-kEverywhere, -kEverywhere}, high{kEverywhere, kEverywhere};
+    bool contains(double u, double v) const { return u >= low[0] && u <= high[0] && v >= low[1] && v <= high[1]; }
+  };
+  static Box box_of(const Layer& layer) {
+    const auto* polygon = std::get_if<Polygon>(&layer.shape);
+    if (polygon == nullptr || polygon->corners_px.empty()) return {};
+    Box box{polygon->corners_px.front(), polygon->corners_px.front()};
+    for (const auto& corner : polygon->corners_px) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        box.low[axis] = std::min(box.low[axis], corner[axis]);
+        box.high[axis] = std::max(box.high[axis], corner[axis]);
+      }
+    }
+    return box;
+  }
+
   double value_of(int layer) const { return layer < 0 ? background_ : layers_[static_cast<std::size_t>(layer)].value; }
 
   // Mean intensity of each pixel: 8 x 8 samples where its corners differ, one sample elsewhere.
@@ -189,6 +212,7 @@ class PaintedScene {
   PaintedCamera camera_;
   double background_;
   std::vector<Layer> layers_;
+  std::vector<Box> boxes_;
 };
 
 }  // namespace pharos::test

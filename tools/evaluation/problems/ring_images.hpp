@@ -178,18 +178,21 @@ inline double overlap_of(const TrueEllipse& one, const TrueEllipse& other) {
                high_u = std::max(one.cx_px + one.a_px, other.cx_px + other.a_px);
   const double low_v = std::min(one.cy_px - one.a_px, other.cy_px - other.a_px),
                high_v = std::max(one.cy_px + one.a_px, other.cy_px + other.a_px);
-  const auto covers = [](const TrueEllipse& e, double u, double v) {
-    const double c = std::cos(e.theta_rad), s = std::sin(e.theta_rad), du = u - e.cx_px, dv = v - e.cy_px;
-    const double x = (c * du + s * dv) / e.a_px, y = (c * dv - s * du) / e.b_px;
-    return x * x + y * y < 1.0;
+  const auto covering = [](const TrueEllipse& e) {
+    return [e, c = std::cos(e.theta_rad), s = std::sin(e.theta_rad)](double u, double v) {
+      const double du = u - e.cx_px, dv = v - e.cy_px;
+      const double x = (c * du + s * dv) / e.a_px, y = (c * dv - s * du) / e.b_px;
+      return x * x + y * y < 1.0;
+    };
   };
+  const auto one_covers = covering(one), other_covers = covering(other);
   if (std::hypot(one.cx_px - other.cx_px, one.cy_px - other.cy_px) > one.a_px + other.a_px) return 0.0;
   constexpr int kSide = 200;
   int both = 0, either = 0;
   for (int j = 0; j < kSide; ++j) {
     for (int i = 0; i < kSide; ++i) {
       const double u = low_u + (high_u - low_u) * (i + 0.5) / kSide, v = low_v + (high_v - low_v) * (j + 0.5) / kSide;
-      const bool a = covers(one, u, v), b = covers(other, u, v);
+      const bool a = one_covers(u, v), b = other_covers(u, v);
       both += a && b ? 1 : 0;
       either += a || b ? 1 : 0;
     }

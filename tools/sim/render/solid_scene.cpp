@@ -6,15 +6,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "tools/sim/render/solid_shapes.hpp"
+#include "tools/sim/render/solid_tiles.hpp"
 #include "tools/sim/render/subpixels.hpp"
 
 namespace pharos::sim {
 namespace {
 
-constexpr int kTile_px = 16;
 // A shadow's ray begins so far off the surface.
 constexpr double kOffSurface_m = 1e-5;
 // Difference of light between neighbours that is worth a few rays, and all of them. A slope within one surface is a
@@ -99,14 +98,70 @@ std::vector<Vector3> sun_directions(const SolidScene& scene) {
   return out;
 }
 
+// Which solids may be between a place and the sun: by where a place is seen from the sun.
+class SunMap {
+ public:
+  SunMap(const std::vector<Bounds>& bounds, const Vector3& to_sun, double sun_radius_rad)
+      : across_(to_sun.unitOrthogonal()), along_(to_sun.cross(across_)) {
+    double nearest = kNever, farthest = -kNever;  // towards the sun
+    Vector2 high = Vector2::Constant(-kNever);
+    for (const Bounds& b : bounds) {
+      low_ = low_.cwiseMin(seen(b.centre_m) - Vector2::Constant(b.radius_m));
+      high = high.cwiseMax(seen(b.centre_m) + Vector2::Constant(b.radius_m));
+      nearest = std::min(nearest, b.centre_m.dot(to_sun) - b.radius_m);
+      farthest = std::max(farthest, b.centre_m.dot(to_sun));
+    }
+    if (bounds.empty()) return;
+    step_ = (high - low_).cwiseMax(1e-6) / kCells;
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+      // Half shadows widen with the distance; and a place is a little off its surface.
+      const double reach = bounds[k].radius_m + sun_radius_rad * (farthest - nearest) + 10.0 * kOffSurface_m;
+      const Vector2 middle = seen(bounds[k].centre_m);
+      const Cell first = cell_at(middle - Vector2::Constant(reach)), last = cell_at(middle + Vector2::Constant(reach));
+      for (int row = first.row; row <= last.row; ++row) {
+        for (int column = first.column; column <= last.column; ++column) list({column, row}).push_back(k);
+      }
+    }
+  }
+
+  const std::vector<std::size_t>& at(const Vector3& place) const { return lists_[index(cell_at(seen(place)))]; }
+
+ private:
+  static constexpr int kCells = 64;  // a side
+  struct Cell {
+    int column, row;
+  };
+  Vector2 seen(const Vector3& place) const { return {across_.dot(place), along_.dot(place)}; }
+  Cell cell_at(const Vector2& p) const {
+    const Vector2 cell = (p - low_).cwiseQuotient(step_).cwiseMax(0.0).cwiseMin(kCells - 1.0);
+    return {static_cast<int>(cell.x()), static_cast<int>(cell.y())};
+  }
+  static std::size_t index(const Cell& cell) { return static_cast<std::size_t>(cell.row * kCells + cell.column); }
+  std::vector<std::size_t>& list(const Cell& cell) { return lists_[index(cell)]; }
+
+  Vector3 across_, along_;
+  Vector2 low_ = Vector2::Constant(kNever), step_ = Vector2::Ones();
+  std::vector<std::vector<std::size_t>> lists_{static_cast<std::size_t>(kCells * kCells)};
+};
+
+std::vector<Bounds> bounds_in_scene(const SolidScene& scene) {
+  std::vector<Bounds> out;
+  for (const Solid& solid : scene.solids) {
+    const Bounds bounds = bounds_of(solid);
+    out.push_back({solid.R * bounds.centre_m + solid.t_m, bounds.radius_m});
+  }
+  return out;
+}
+
 class Caster {
  public:
-  Caster(const SolidScene& scene, const Vector3& eye) : scene_(scene), eye_(eye), suns_(sun_directions(scene)) {
-    for (const Solid& solid : scene.solids) {
-      const Bounds bounds = bounds_of(solid);
-      bounds_.push_back({solid.R * bounds.centre_m + solid.t_m, bounds.radius_m});
-      eyes_.push_back(solid.R.transpose() * (eye - solid.t_m));
-    }
+  Caster(const SolidScene& scene, const Vector3& eye)
+      : scene_(scene),
+        eye_(eye),
+        bounds_(bounds_in_scene(scene)),
+        suns_(sun_directions(scene)),
+        sun_map_(bounds_, scene.to_sun, scene.sun_radius_rad) {
+    for (const Solid& solid : scene.solids) eyes_.push_back(solid.R.transpose() * (eye - solid.t_m));
   }
 
   struct Seen {
@@ -147,7 +202,7 @@ class Caster {
   double sun_seen(const Vector3& place, const Solid& own) const {
     std::vector<std::size_t>& near = in_the_way_;
     near.clear();
-    for (std::size_t k = 0; k < scene_.solids.size(); ++k) {
+    for (const std::size_t k : sun_map_.at(place)) {
       if (&scene_.solids[k] == &own && std::holds_alternative<SolidBox>(own.shape)) continue;
       const Vector3 to = bounds_[k].centre_m - place;
       const double along = to.dot(scene_.to_sun);
@@ -188,84 +243,8 @@ class Caster {
   std::vector<Vector3> eyes_;  // in each solid's frame
   std::vector<Bounds> bounds_;
   std::vector<Vector3> suns_;
+  SunMap sun_map_;
   mutable std::vector<std::size_t> in_the_way_;  // of one place, kept for its memory
-};
-
-// Which solids may be seen in each tile of the image.
-class Tiles {
- public:
-  Tiles(const Lens& lens, const std::vector<Bounds>& bounds, const Matrix3& R_scene_camera, const Vector3& eye)
-      : columns_((lens.width_px + kTile_px - 1) / kTile_px), rows_((lens.height_px + kTile_px - 1) / kTile_px) {
-    lists_.resize(static_cast<std::size_t>(columns_ * rows_));
-    for (std::size_t k = 0; k < bounds.size(); ++k) {
-      const Vector3 centre = R_scene_camera.transpose() * (bounds[k].centre_m - eye);
-      const double radius = bounds[k].radius_m;
-      int left = 0, right = columns_ - 1, top = 0, bottom = rows_ - 1;
-      if (centre.z() > 1.05 * radius) {
-        // The sphere's image lies within this of its middle's; a distorting lens moves it by tenths of that.
-        const double reach = radius / std::sqrt(centre.squaredNorm() - radius * radius) *
-                             (1.0 + centre.head<2>().squaredNorm() / (centre.z() * centre.z())) * 1.6;
-        const Vector2 middle = pixel_of(lens, centre);
-        const double u = lens.fx_px * reach + 4.0, v = lens.fy_px * reach + 4.0;
-        const auto tile = [](double px) { return static_cast<int>(std::floor(px / kTile_px)); };
-        left = std::max(left, tile(middle.x() - u));
-        right = std::min(right, tile(middle.x() + u));
-        top = std::max(top, tile(middle.y() - v));
-        bottom = std::min(bottom, tile(middle.y() + v));
-      }
-      for (int row = top; row <= bottom; ++row) {
-        for (int column = left; column <= right; ++column) {
-          lists_[static_cast<std::size_t>(row * columns_ + column)].push_back(static_cast<std::uint16_t>(k));
-        }
-      }
-    }
-  }
-  const std::vector<std::uint16_t>& at(int u, int v) const {
-    return lists_[static_cast<std::size_t>((v / kTile_px) * columns_ + u / kTile_px)];
-  }
-
- private:
-  int columns_, rows_;
-  std::vector<std::vector<std::uint16_t>> lists_;
-};
-
-// Rays (x/z, y/z) of any place of the image: of a lens that distorts, linear between places 4 px apart, 0.001 px off.
-class LensRays {
- public:
-  explicit LensRays(const Lens& lens) : lens_(lens), plain_(!has_distortion(lens)) {
-    if (plain_) return;
-    columns_ = lens.width_px / kStep_px + 3;
-    const int rows = lens.height_px / kStep_px + 3;
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        const Vector2 seen = seen_at((column - 1) * kStep_px, (row - 1) * kStep_px);
-        const auto ray = undistorted(lens, seen, column > 0 && rays_.back() ? *rays_.back() : seen);
-        rays_.push_back(ray);
-      }
-    }
-  }
-
-  std::optional<Vector2> at(double u, double v) const {
-    if (plain_) return seen_at(u, v);
-    const double x = u / kStep_px + 1.0, y = v / kStep_px + 1.0;
-    const int column = static_cast<int>(x), row = static_cast<int>(y);
-    const auto* above = &rays_[static_cast<std::size_t>(row * columns_ + column)];
-    const auto* below = above + columns_;
-    if (!above[0] || !above[1] || !below[0] || !below[1]) return std::nullopt;
-    const double a = x - column, b = y - row;
-    return Vector2((1 - b) * ((1 - a) * *above[0] + a * *above[1]) + b * ((1 - a) * *below[0] + a * *below[1]));
-  }
-
- private:
-  static constexpr int kStep_px = 4;
-  Vector2 seen_at(double u, double v) const {
-    return {(u - lens_.cx_px) / lens_.fx_px, (v - lens_.cy_px) / lens_.fy_px};
-  }
-
-  const Lens& lens_;
-  bool plain_;
-  int columns_ = 0;
-  std::vector<std::optional<Vector2>> rays_;
 };
 
 std::vector<Subpixel> even_subpixels(int count) { return blurred_subpixels(count, 0.0); }
@@ -288,11 +267,11 @@ float largest_step(const LinearImage& image, const std::vector<std::int16_t>& so
 LinearImage solid_image(const SolidScene& scene, const Lens& lens, const Matrix3& R_scene_camera,
                         const Vector3& t_scene_camera_m, int rays) {
   const Caster caster(scene, t_scene_camera_m);
-  const Tiles tiles(lens, caster.bounds(), R_scene_camera, t_scene_camera_m);
   const auto pixels = static_cast<std::size_t>(lens.width_px) * static_cast<std::size_t>(lens.height_px);
   LinearImage image{lens.width_px, lens.height_px, std::vector<float>(pixels, 0.0F)};
   std::vector<std::int16_t> solids(pixels, -1);
   const LensRays rays_of(lens);
+  const Tiles tiles(lens, rays_of, caster.bounds(), R_scene_camera, t_scene_camera_m);
   const auto look = [&](double u, double v, const std::vector<std::uint16_t>& list) -> Caster::Seen {
     const auto ray = rays_of.at(u, v);
     if (!ray) return {};

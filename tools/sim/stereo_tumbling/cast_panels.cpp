@@ -2,6 +2,7 @@
 #include "tools/sim/stereo_tumbling/cast_panels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tools/sim/render/primitives.hpp"
@@ -9,42 +10,79 @@
 namespace pharos::sim {
 namespace {
 
+constexpr std::int32_t kTile_px = 16;
+constexpr double kNearest_m = 0.05;
+// What rounding may do to a panel's border, in parts of its distance.
+constexpr double kRounding = 1e-9;
+
 // A panel in the camera's frame.
 struct CameraPanel {
   PlaneCoordinates plane;
   const Texture* texture = nullptr;
-  std::int32_t first_u = 0, last_u = 0, first_v = 0, last_v = 0;  // pixels that may show it
+  std::array<Vector3, 4> corners;
+  std::size_t number = 0;  // in the scene
+  double nearest_m = 0.0;  // no point of it is less deep
 };
 
-// All pixels where a corner stands beside or behind the camera.
-void bound(const Lens& lens, const Vector3& corner, const Vector3& edge_s, const Vector3& edge_t, CameraPanel& out) {
-  out.first_u = out.first_v = 0;
-  out.last_u = lens.width_px - 1;
-  out.last_v = lens.height_px - 1;
-  Vector2 low(1e9, 1e9), high(-1e9, -1e9);
-  for (int k = 0; k < 4; ++k) {
-    const Vector3 p = corner + (k % 2) * edge_s + (k / 2) * edge_t;
-    if (p.z() < 0.1 || std::abs(p.x()) > 1.5 * p.z() || std::abs(p.y()) > 1.5 * p.z()) return;
-    const Vector2 pixel = pixel_of(lens, p);
-    low = low.cwiseMin(pixel);
-    high = high.cwiseMax(pixel);
-  }
-  // Distortion bends edges outwards by less than this.
-  const double margin = has_distortion(lens) ? 40.0 : 2.0;
-  out.first_u = std::max(out.first_u, static_cast<std::int32_t>(low.x() - margin));
-  out.first_v = std::max(out.first_v, static_cast<std::int32_t>(low.y() - margin));
-  out.last_u = std::min(out.last_u, static_cast<std::int32_t>(high.x() + margin));
-  out.last_v = std::min(out.last_v, static_cast<std::int32_t>(high.y() + margin));
-}
-
-CameraPanel seen_from(const Panel& panel, const PanelScene& scene, const Lens& lens,
-                      const Pose<frame::Camera, frame::Rig>& T_camera_scene) {
+CameraPanel seen_from(const Panel& panel, const PanelScene& scene,
+                      const Pose<frame::Camera, frame::Rig>& T_camera_scene, std::size_t number) {
   const Vector3 corner = T_camera_scene * panel.corner_m;
   const Vector3 s = T_camera_scene.R * panel.edge_s_m, t = T_camera_scene.R * panel.edge_t_m;
-  CameraPanel out{PlaneCoordinates(corner, s, t), &scene.textures[static_cast<std::size_t>(panel.texture)], 0, 0, 0, 0};
-  bound(lens, corner, s, t, out);
+  CameraPanel out{PlaneCoordinates(corner, s, t),
+                  &scene.textures[static_cast<std::size_t>(panel.texture)],
+                  {corner, corner + s, corner + t, corner + s + t},
+                  number,
+                  kNever};
+  for (const Vector3& p : out.corners) out.nearest_m = std::min(out.nearest_m, p.z() - kRounding * p.norm());
   return out;
 }
+
+// The nearest first: behind a panel that is hit, those that begin deeper need no look.
+std::vector<CameraPanel> sorted_panels(const PanelScene& scene, const Pose<frame::Camera, frame::Rig>& T_camera_scene) {
+  std::vector<CameraPanel> out;
+  out.reserve(scene.panels.size());
+  for (const Panel& panel : scene.panels) out.push_back(seen_from(panel, scene, T_camera_scene, out.size()));
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.nearest_m < b.nearest_m; });
+  return out;
+}
+
+// A rectangle of the image, and what its rays (x/z, y/z) lie within: exact whatever the lens does.
+class Tile {
+ public:
+  Tile(const Lens& lens, const RayGrid& rays, int rays_per_side, std::int32_t u, std::int32_t v)
+      : first_u(u),
+        first_v(v),
+        end_u(std::min(u + kTile_px, lens.width_px)),
+        end_v(std::min(v + kTile_px, lens.height_px)) {
+    for (int row = first_v * rays_per_side; row < end_v * rays_per_side; ++row) {
+      const Vector2* ray = rays.row_begin(row, first_u * rays_per_side);
+      for (int k = (end_u - first_u) * rays_per_side; k > 0; --k, ++ray) {
+        low_ = low_.cwiseMin(*ray);
+        high_ = high_.cwiseMax(*ray);
+      }
+    }
+  }
+
+  // Not where all corners are on the far side of one of its five planes: the panel between them is too.
+  bool may_show(const CameraPanel& panel) const {
+    std::array<int, 5> beyond{};
+    for (const Vector3& p : panel.corners) {
+      const double rounding = kRounding * p.norm();
+      beyond[0] += p.z() < kNearest_m - rounding;
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const auto k = static_cast<Eigen::Index>(axis);
+        beyond[1 + 2 * axis] += p[k] < low_[k] * p.z() - rounding;
+        beyond[2 + 2 * axis] += p[k] > high_[k] * p.z() + rounding;
+      }
+    }
+    return std::find(beyond.begin(), beyond.end(), 4) == beyond.end();
+  }
+
+  std::int32_t first_u, first_v, end_u, end_v;
+
+ private:
+  Vector2 low_ = Vector2::Constant(kNever), high_ = Vector2::Constant(-kNever);
+};
 
 struct Hit {
   double depth = kNever;
@@ -52,12 +90,14 @@ struct Hit {
   double s = 0.0, t = 0.0;
 };
 
-Hit nearest(const std::vector<const CameraPanel*>& panels, std::int32_t u, const Vector3& ray) {
+// Of two panels at one depth, the scene's first.
+Hit nearest(const std::vector<const CameraPanel*>& panels, const Vector3& ray) {
   Hit hit;
   for (const CameraPanel* panel : panels) {
-    if (u < panel->first_u || u > panel->last_u) continue;
+    if (panel->nearest_m > hit.depth) break;
     const double depth = panel->plane.depth(ray);
-    if (!(depth > 0.05 && depth < hit.depth)) continue;
+    const bool before = hit.panel != nullptr && depth == hit.depth && panel->number < hit.panel->number;
+    if (!(depth > kNearest_m && (depth < hit.depth || before))) continue;
     const double s = panel->plane.s(ray, depth);
     if (!(s >= 0.0 && s <= 1.0)) continue;
     const double t = panel->plane.t(ray, depth);
@@ -91,32 +131,33 @@ void draw_stars(LinearImage& image, const std::vector<Star>& stars, const Lens& 
 LinearImage cast_panels(const PanelScene& scene, const Lighting& lighting, const Lens& lens, const RayGrid& rays,
                         int rays_per_side, const Pose<frame::Rig, frame::Camera>& T_scene_camera) {
   const Pose<frame::Camera, frame::Rig> T_camera_scene = T_scene_camera.inverse();
-  std::vector<CameraPanel> panels;
-  panels.reserve(scene.panels.size());
-  for (const Panel& panel : scene.panels) panels.push_back(seen_from(panel, scene, lens, T_camera_scene));
+  const std::vector<CameraPanel> panels = sorted_panels(scene, T_camera_scene);
   const Vector3 lamp = T_camera_scene * lighting.lamp_m;
   LinearImage image{lens.width_px, lens.height_px, {}};
   image.light.assign(static_cast<std::size_t>(lens.width_px) * static_cast<std::size_t>(lens.height_px), 0.0F);
-  std::vector<const CameraPanel*> row;
-  for (std::int32_t v = 0; v < lens.height_px; ++v) {
-    row.clear();
-    for (const CameraPanel& panel : panels) {
-      if (v >= panel.first_v && v <= panel.last_v) row.push_back(&panel);
-    }
-    if (row.empty()) continue;
-    for (std::int32_t u = 0; u < lens.width_px; ++u) {
-      double sum = 0.0;
-      int hits = 0;
-      for (int down = 0; down < rays_per_side; ++down) {
-        const Vector2* ray = rays.row_begin(v * rays_per_side + down, u * rays_per_side);
-        for (int across = 0; across < rays_per_side; ++across, ++ray) {
-          const Vector3 direction(ray->x(), ray->y(), 1.0);
-          const Hit hit = nearest(row, u, direction);
-          hits += hit.panel != nullptr ? 1 : 0;
-          sum += light_of(hit, direction, lighting, lamp);
-        }
+  std::vector<const CameraPanel*> shown;
+  const auto light_at = [&](std::int32_t u, std::int32_t v) {
+    double sum = 0.0;
+    for (int down = 0; down < rays_per_side; ++down) {
+      const Vector2* ray = rays.row_begin(v * rays_per_side + down, u * rays_per_side);
+      for (int across = 0; across < rays_per_side; ++across, ++ray) {
+        const Vector3 direction(ray->x(), ray->y(), 1.0);
+        sum += light_of(nearest(shown, direction), direction, lighting, lamp);
       }
-      if (hits > 0) image.at(u, v) = static_cast<float>(sum / (rays_per_side * rays_per_side));
+    }
+    return static_cast<float>(sum / (rays_per_side * rays_per_side));
+  };
+  for (std::int32_t first_v = 0; first_v < lens.height_px; first_v += kTile_px) {
+    for (std::int32_t first_u = 0; first_u < lens.width_px; first_u += kTile_px) {
+      const Tile tile(lens, rays, rays_per_side, first_u, first_v);
+      shown.clear();
+      for (const CameraPanel& panel : panels) {
+        if (tile.may_show(panel)) shown.push_back(&panel);
+      }
+      if (shown.empty()) continue;
+      for (std::int32_t v = tile.first_v; v < tile.end_v; ++v) {
+        for (std::int32_t u = tile.first_u; u < tile.end_u; ++u) image.at(u, v) = light_at(u, v);
+      }
     }
   }
   return image;

@@ -12,7 +12,7 @@ namespace pharos::sim {
 
 /// Light that a camera at T_scene_camera sees of panels: rays cast exactly through the (distorting) lens, as
 /// POV-Ray cannot. `rays` is RayGrid::inside_pixels(lens, rays_per_side). Cost: some 20 ns a ray and panel that its
-/// pixel may show.
+/// part of the image may show.
 LinearImage cast_panels(const PanelScene& scene, const Lighting& lighting, const Lens& lens, const RayGrid& rays,
                         int rays_per_side, const Pose<frame::Rig, frame::Camera>& T_scene_camera);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pharos::sim {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr double kTexel_m = 0.004;
 // Of a wall: a pixel of the room's cameras sees 8 mm from 4 m.
 constexpr double kWallTexel_m = 0.008;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 Texture blank(double width_m, double height_m, double texel_m, float albedo) {
   const auto cells = [texel_m](double side_m) { return std::max(8, static_cast<int>(std::lround(side_m / texel_m))); };
@@ -38,11 +40,14 @@ class Facets {
   float shade(double x, double y) const {
     const int column = static_cast<int>(x / side_) + 1, row = static_cast<int>(y / side_) + 1;
     double nearest = 1e9, second = 1e9;
+    double limit = kNoLimit;  // square of a distance that is certainly neither
     float shade = 0.0F;
     for (int r = std::max(0, row - 2); r <= std::min(rows_ - 1, row + 2); ++r) {
       for (int c = std::max(0, column - 2); c <= std::min(columns_ - 1, column + 2); ++c) {
         const Seed& seed = seeds_[static_cast<std::size_t>(r * columns_ + c)];
-        const double distance = std::hypot(x - seed.x, y - seed.y);
+        const double dx = x - seed.x, dy = y - seed.y;
+        if (dx * dx + dy * dy > limit) continue;
+        const double distance = std::hypot(dx, dy);  // slow, and exact: few are taken
         if (distance < nearest) {
           second = nearest;
           nearest = distance;
@@ -50,6 +55,7 @@ class Facets {
         } else {
           second = std::min(second, distance);
         }
+        limit = second * second * (1.0 + 1e-9);
       }
     }
     const bool crease = second - nearest < 0.06 * side_;
