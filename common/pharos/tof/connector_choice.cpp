@@ -101,10 +101,9 @@ class Chooser {
     if (count < settings_.expected) {
       return nearer_places_are_plate() ? ConnectorDoubt::kNone : ConnectorDoubt::kHidden;
     }
-    // A single one may be a cover here too.
-    const bool stands = something_stands_nearer(seen_half_m()) ||
-                        (count == 1 && something_stands_nearer(kConnectorPerCover * seen_half_m()));
-    return stands ? ConnectorDoubt::kUnclear : ConnectorDoubt::kNone;
+    // A single one that pixels do not show as a rectangle may be anything, and the connector too dark for depth.
+    if (count == 1 && !seen[0].face.is_square()) return ConnectorDoubt::kUnclear;
+    return something_stands_nearer() ? ConnectorDoubt::kUnclear : ConnectorDoubt::kNone;
   }
 
   bool alike(const SeenConnector& a, const SeenConnector& b) const {
@@ -144,9 +143,10 @@ class Chooser {
     return !any_nearer_place(kMinConnectorDistance * ring_.model.radius_m[0], half_m,
                              [](const Vector2&, double log_odds) { return log_odds > kPlateCertain; });
   }
-  // Whether something as high as the nearest one and so wide stands nearer, and is none of the boxes found.
-  bool something_stands_nearer(double half_m) const {
+  // Whether something as high and wide as the nearest one stands nearer, and is none of the boxes found.
+  bool something_stands_nearer() const {
     // Clear of the nozzle and of its walls in sight.
+    const double half_m = seen_half_m();
     const double nearest_m = kClearOfNozzle * ring_.model.radius_m[0] + 2.0 * half_m;
     return any_nearer_place(nearest_m, half_m, [&](const Vector2& place, double log_odds) {
       if (log_odds < kStands || beside_wall(place.norm(), half_m) || beside_hidden(place, half_m)) return false;

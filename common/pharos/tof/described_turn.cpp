@@ -20,6 +20,8 @@ constexpr double kLengthPerCentre = 2.0;
 constexpr double kSideGate = 2.0;
 // And beside it: rounded corners, a rim.
 constexpr double kSizeMargin_m = 0.003;
+// Corners that are a disc's by these odds are no connector's.
+constexpr double kRoundLogOdds = 1.0;
 // What one connector can say at most for or against a turn, as the logarithm of odds. One that is absent in plain sight
 // says less: bodies differ from drawings, and any one connector gives the turn.
 constexpr double kMaxFor = 15.0;
@@ -97,6 +99,10 @@ class TurnFinder {
     const Vector2 off = sides - described_m, turned = sides - Vector2(described_m.y(), described_m.x());
     return off.squaredNorm() <= turned.squaredNorm() ? off : turned;
   }
+  // By the odds of a rectangle's corners over a disc's; so few pixels may not tell.
+  static bool is_rather_round(const ConnectorFace& face) {
+    return face.squareness - 0.5 < -kRoundLogOdds * face.sigma_squareness * face.sigma_squareness;
+  }
   static double side_sigma(const ConnectorFace& face, int side) {
     const Vector2 along = face.rectangle.outward(side);
     return kLengthPerCentre * std::sqrt(along.dot(face.covariance * along));
@@ -105,7 +111,7 @@ class TurnFinder {
   // length are another thing's, as are corners that are more like a disc's.
   static bool is_shaped_like(const ConnectorFace& face, const DescribedConnector& described) {
     const Vector2 off_m = side_errors(described.size_m, face);
-    return face.edge_points > 0 && face.squareness > 0.5 &&
+    return face.edge_points > 0 && !is_rather_round(face) &&
            (std::fabs(off_m[0]) < kSizeMargin_m + kGate * side_sigma(face, 0) ||
             std::fabs(off_m[1]) < kSizeMargin_m + kGate * side_sigma(face, 1));
   }
