@@ -65,7 +65,7 @@ bool has_alike_sides(const PanelHypothesis& h) {
 }  // namespace
 
 bool PanelEvidence::is_confirmed(const PanelHypothesis& h) const {
-  if (!has_alike_sides(h)) return false;
+  if (!has_alike_sides(h) || is_of_yokes(h)) return false;
   if (h.axis.sigma_rad() > kUnsureSigma_rad) return h.is_wing() || is_much_of_target(h);
   if (is_interrupted(h)) return false;
   // The outline of something else, but for two ends that are whole.
@@ -84,6 +84,15 @@ bool PanelEvidence::is_much_of_target(const PanelHypothesis& h) const {
 // A plane region with one end. That end tests nothing by itself: a direction square to the axis lies in any plane.
 bool PanelEvidence::is_end_of_plane(const PanelHypothesis& h) const {
   return !h.has_unknown_end && h.whole_ends > 0 && is_one_plane(image_, target_, h.pairs.front());
+}
+
+// What holds a wing's panels is in line as they are, and a strip; its dark limb is no edge, so that its axis is not
+// that of the wing.
+bool PanelEvidence::is_of_yokes(const PanelHypothesis& h) const {
+  if (!h.is_wing()) return false;
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const EdgePair& pair) {
+    return is_yoke(h.pairs[0], h.pairs[1], pair) || is_yoke(h.pairs[1], h.pairs[0], pair);
+  });
 }
 
 bool PanelEvidence::is_in_line(const PanelHypothesis& h) const {
