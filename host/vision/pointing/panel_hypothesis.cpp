@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace pharos::pointing {
@@ -69,6 +70,7 @@ bool settle_sides(const EdgePair& pair, const PanelSides& measured, const Pinhol
   std::swap(panel.long_edges, panel.short_edges);
   lone.sides = {measured.ends.front().extent, measured.ends.back().extent};
   lone.whole_ends = panel.short_edges.size();
+  lone.has_outer_end = true;
   lone.is_of_faces = is_of_faces({measured.ends.front(), measured.ends.back(), {}, {}, false});
   // Known by the other axis, of which the sigma may be another.
   const auto swapped = aspect_in_space(panel, camera);
@@ -100,6 +102,10 @@ std::optional<PanelHypothesis> lone_with(const EdgePair& pair, const PanelSides&
                                          const PinholeCamera& camera) {
   PanelHypothesis lone{{pair}, measurement_of({sides}, camera), {}, pair.middle.length()};
   lone.whole_ends = whole_ends;
+  // Where the body hides a panel's other end, the one that is seen is the outer one.
+  const auto ends = std::span(sides.ends).first(whole_ends);
+  lone.has_outer_end =
+      std::any_of(ends.begin(), ends.end(), [&](const Side& end) { return !is_before_a_face(end, sides.first); });
   lone.has_corner_end = whole_ends < std::min<std::size_t>(2, sides.ends.size());
   if (!settle_sides(pair, sides, camera, lone)) return std::nullopt;
   const auto axis = axis_of(lone.measurement);
