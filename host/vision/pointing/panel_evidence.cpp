@@ -21,8 +21,9 @@ constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
 // From an outline's line, where blur leaves target on one side and sky on the other; sigmas of the sky between them.
 constexpr double kBesideLine_px = 5.0;
 constexpr double kSkySigmas = 5.0;
-constexpr double kMaxTurnOfSide = 0.1;  // rad, of the rest of a side: LSD's short segments
-constexpr double kMinOfGap = 0.7;       // what stands out of a body hides the rest
+constexpr double kMaxTurnOfSide = 0.1;   // rad, of the rest of a side: LSD's short segments
+constexpr double kNearCorner_px = 15.0;  // from a side's end, where an end was followed to short of their corner
+constexpr double kMinOfGap = 0.7;        // what stands out of a body hides the rest
 // Of a side's length, the other one's: a panel's are alike, a body may hide a part of one.
 constexpr double kMinSidesAlike = 0.3;
 // Of the target's pixels that a lone panel of a hardly known axis must cover: booms cover 3 to 9 % of them.
@@ -47,6 +48,13 @@ const Vector2& near_end(const Segment& edge, const Segment& own) {
 double gap_px(const Segment& edge, const Segment& own) {
   const double at = own.station(near_end(edge, own));
   return own.station(edge.middle()) > own.length() ? at - own.length() : -at;
+}
+
+bool has_end_at(const PanelHypothesis& h, const Vector2& corner) {
+  const std::vector<Segment>& ends = h.measurement.short_edges;
+  return std::any_of(ends.begin(), ends.end(), [&](const Segment& end) {
+    return std::min((end.begin - corner).norm(), (end.end - corner).norm()) < kNearCorner_px;
+  });
 }
 
 // Whether the rest of the shorter of two sides may be hidden. Beside a panel's side a short edge of anything else is a
@@ -88,7 +96,7 @@ bool PanelEvidence::is_end_of_plane(const PanelHypothesis& h) const {
   const EdgePair& pair = h.pairs.front();
   const auto goes_on = [&](const Segment& edge) {
     return std::any_of(h.sides.begin(), h.sides.end(), [&](const Segment& own) {
-      return edge.length() > kMinThirdEdge * own.length() && continues_face(pair, own, edge);
+      return edge.length() > kMinThirdEdge * own.length() && continues_face(h, own, edge);
     });
   };
   return is_one_plane(image_, target_, pair) && std::none_of(outline_.begin(), outline_.end(), goes_on);
@@ -96,12 +104,14 @@ bool PanelEvidence::is_end_of_plane(const PanelHypothesis& h) const {
 
 // Whether an edge is the rest of a side before something that stands out behind it: between them is the same face, with
 // no end of it.
-bool PanelEvidence::continues_face(const EdgePair& pair, const Segment& own, const Segment& edge) const {
+bool PanelEvidence::continues_face(const PanelHypothesis& h, const Segment& own, const Segment& edge) const {
   if (!is_beyond(edge, own) || gap_px(edge, own) < kMinGap_px) return false;
   if (edge.along().dot(own.along()) < std::cos(kMaxTurnOfSide)) return false;
   const bool is_after = own.station(edge.middle()) > own.length();
+  // A side at whose end the panel's own end begins has its end there.
+  if (has_end_at(h, is_after ? own.end : own.begin)) return false;
   const Segment gap = is_after ? Segment{own.end, edge.begin} : Segment{edge.end, own.begin};
-  return goes_on_along(image_, target_, pair, own, gap);
+  return goes_on_along(image_, target_, h.pairs.front(), own, gap);
 }
 
 // What holds a wing's panels is in line as they are, and a strip; its dark limb is no edge, so that its axis is not
@@ -125,7 +135,7 @@ bool PanelEvidence::is_interrupted(const PanelHypothesis& h) const {
     const EdgePair &one = h.pairs[0], &other = h.pairs[1];
     const bool same_way = one.first.along().dot(other.first.along()) > 0.0;
     const auto is_one_side = [&](const Segment& own, const Segment& next) {
-      return goes_on_between(own, next) || continues_face(one, own, next);
+      return goes_on_between(own, next) || continues_face(h, own, next);
     };
     return is_one_side(one.first, same_way ? other.first : other.second) ||
            is_one_side(one.second, same_way ? other.second : other.first);
@@ -172,7 +182,7 @@ bool PanelEvidence::is_third(const PanelHypothesis& h, const Segment& edge) cons
   // beside the other one, or the outline goes on to it, it is the rest of the same side.
   const auto is_thirds_side = [&](const Segment& own, const Segment& opposite) {
     return is_beyond(edge, own) && gap_px(edge, own) > kMinGap_px && !is_beside(edge, opposite) &&
-           !goes_on_between(own, edge) && !continues_face(pair, own, edge);
+           !goes_on_between(own, edge) && !continues_face(h, own, edge);
   };
   if (!is_thirds_side(pair.first, pair.second) && !is_thirds_side(pair.second, pair.first)) return false;
   const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);

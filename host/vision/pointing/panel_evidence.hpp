@@ -25,7 +25,7 @@ class PanelEvidence {
  private:
   bool is_much_of_target(const PanelHypothesis& h) const;
   bool is_end_of_plane(const PanelHypothesis& h) const;
-  bool continues_face(const EdgePair& pair, const Segment& own, const Segment& edge) const;
+  bool continues_face(const PanelHypothesis& h, const Segment& own, const Segment& edge) const;
   bool is_of_yokes(const PanelHypothesis& h) const;
   bool is_interrupted(const PanelHypothesis& h) const;
   bool goes_on_between(const Segment& one, const Segment& other) const;
