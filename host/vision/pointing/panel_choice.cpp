@@ -14,10 +14,11 @@ constexpr double kMinPanelFraction = 0.12;  // of the longest edge
 constexpr double kMaxConvergence = 0.5;
 constexpr double kMinOverlap = 0.55;  // of the shorter edge; a body may hide the rest
 constexpr double kMinSeparation_px = 3.5;
-constexpr double kMaxSeparation = 3.0;  // times the overlap: foreshortened panels
-constexpr double kMinFill = 0.85;       // of the strip between the edges
-constexpr double kWingTurn = 0.08;      // rad between the middle lines of a wing's panels
-constexpr double kWingOff = 0.35;       // of one's middle from the other's line, in separations
+constexpr double kMaxSeparation = 3.0;    // times the overlap: foreshortened panels
+constexpr double kMinFill = 0.85;         // of the strip between the edges
+constexpr double kWingTurn = 0.08;        // rad between the middle lines of a wing's panels
+constexpr double kYokeOverlap_px = 10.0;  // of a yoke and its panel, whose corners are known to some pixels
+constexpr double kWingOff = 0.35;         // of one's middle from the other's line, in separations
 
 // Of the strip between two edges that converge, from one end of their overlap to the other.
 double fraction_filled(const TargetMask& target, const Segment& first, const Segment& second) {
@@ -76,6 +77,15 @@ bool is_wing(const EdgePair& a, const EdgePair& b) {
   const double narrower = std::min(a.separation, b.separation);
   return std::abs(a.middle.offset(b.middle.middle())) < kWingOff * narrower &&
          std::abs(b.middle.offset(a.middle.middle())) < kWingOff * narrower;
+}
+
+bool is_yoke(const EdgePair& own, const EdgePair& other, const EdgePair& pair) {
+  if (pair.separation < kWingWidths * own.separation || pair.middle.length() < own.middle.length()) return false;
+  const Segment wing{other.middle.middle(), own.middle.middle()};
+  const Vector2 place = pair.middle.middle();
+  return std::abs(wing.along().dot(pair.middle.along())) > std::cos(kWingTurn) &&
+         std::abs(wing.offset(place)) < kWingOff * pair.separation &&
+         wing.station(place) > wing.length() + 0.5 * (own.middle.length() + pair.middle.length()) - kYokeOverlap_px;
 }
 
 std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const TargetMask& target) {

@@ -24,4 +24,8 @@ inline constexpr double kWingWidths = 1.7;
 /// Whether two pairs stand in one line in the image with a gap between them, as a wing's panels do.
 bool is_wing(const EdgePair& a, const EdgePair& b);
 
+/// Whether a longer and wider pair stands beyond `own` in the line of the wing that it makes with `other`: that is the
+/// panel, and `own` the yoke that holds it.
+bool is_yoke(const EdgePair& own, const EdgePair& other, const EdgePair& pair);
+
 }  // namespace pharos::pointing

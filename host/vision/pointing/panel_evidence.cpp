@@ -21,7 +21,9 @@ constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
 // From an outline's line, where blur leaves target on one side and sky on the other; sigmas of the sky between them.
 constexpr double kBesideLine_px = 5.0;
 constexpr double kSkySigmas = 5.0;
-constexpr double kMinOfGap = 0.7;  // what stands out of a body hides the rest
+constexpr double kMaxTurnOfSide = 0.1;   // rad, of the rest of a side: LSD's short segments
+constexpr double kNearCorner_px = 15.0;  // from a side's end, where an end was followed to short of their corner
+constexpr double kMinOfGap = 0.7;        // what stands out of a body hides the rest
 // Of a side's length, the other one's: a panel's are alike, a body may hide a part of one.
 constexpr double kMinSidesAlike = 0.3;
 // Of the target's pixels that a lone panel of a hardly known axis must cover: booms cover 3 to 9 % of them.
@@ -48,6 +50,13 @@ double gap_px(const Segment& edge, const Segment& own) {
   return own.station(edge.middle()) > own.length() ? at - own.length() : -at;
 }
 
+bool has_end_at(const PanelHypothesis& h, const Vector2& corner) {
+  const std::vector<Segment>& ends = h.measurement.short_edges;
+  return std::any_of(ends.begin(), ends.end(), [&](const Segment& end) {
+    return std::min((end.begin - corner).norm(), (end.end - corner).norm()) < kNearCorner_px;
+  });
+}
+
 // Whether the rest of the shorter of two sides may be hidden. Beside a panel's side a short edge of anything else is a
 // pair as well, and what confirms that side says nothing about it.
 bool are_alike(const Segment& one, const Segment& other) {
@@ -65,7 +74,7 @@ bool has_alike_sides(const PanelHypothesis& h) {
 }  // namespace
 
 bool PanelEvidence::is_confirmed(const PanelHypothesis& h) const {
-  if (!has_alike_sides(h)) return false;
+  if (!has_alike_sides(h) || is_of_yokes(h)) return false;
   if (h.axis.sigma_rad() > kUnsureSigma_rad) return h.is_wing() || is_much_of_target(h);
   if (is_interrupted(h)) return false;
   // The outline of something else, but for two ends that are whole.
@@ -83,7 +92,35 @@ bool PanelEvidence::is_much_of_target(const PanelHypothesis& h) const {
 
 // A plane region with one end. That end tests nothing by itself: a direction square to the axis lies in any plane.
 bool PanelEvidence::is_end_of_plane(const PanelHypothesis& h) const {
-  return !h.has_unknown_end && h.whole_ends > 0 && is_one_plane(image_, target_, h.pairs.front());
+  if (h.has_unknown_end || !h.has_outer_end) return false;
+  const EdgePair& pair = h.pairs.front();
+  const auto goes_on = [&](const Segment& edge) {
+    return std::any_of(h.sides.begin(), h.sides.end(), [&](const Segment& own) {
+      return edge.length() > kMinThirdEdge * own.length() && continues_face(h, own, edge);
+    });
+  };
+  return is_one_plane(image_, target_, pair) && std::none_of(outline_.begin(), outline_.end(), goes_on);
+}
+
+// Whether an edge is the rest of a side before something that stands out behind it: between them is the same face, with
+// no end of it.
+bool PanelEvidence::continues_face(const PanelHypothesis& h, const Segment& own, const Segment& edge) const {
+  if (!is_beyond(edge, own) || gap_px(edge, own) < kMinGap_px) return false;
+  if (edge.along().dot(own.along()) < std::cos(kMaxTurnOfSide)) return false;
+  const bool is_after = own.station(edge.middle()) > own.length();
+  // A side at whose end the panel's own end begins has its end there.
+  if (has_end_at(h, is_after ? own.end : own.begin)) return false;
+  const Segment gap = is_after ? Segment{own.end, edge.begin} : Segment{edge.end, own.begin};
+  return goes_on_along(image_, target_, h.pairs.front(), own, gap);
+}
+
+// What holds a wing's panels is in line as they are, and a strip; its dark limb is no edge, so that its axis is not
+// that of the wing.
+bool PanelEvidence::is_of_yokes(const PanelHypothesis& h) const {
+  if (!h.is_wing()) return false;
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const EdgePair& pair) {
+    return is_yoke(h.pairs[0], h.pairs[1], pair) || is_yoke(h.pairs[1], h.pairs[0], pair);
+  });
 }
 
 bool PanelEvidence::is_in_line(const PanelHypothesis& h) const {
@@ -97,8 +134,11 @@ bool PanelEvidence::is_interrupted(const PanelHypothesis& h) const {
   if (h.is_wing()) {
     const EdgePair &one = h.pairs[0], &other = h.pairs[1];
     const bool same_way = one.first.along().dot(other.first.along()) > 0.0;
-    return goes_on_between(one.first, same_way ? other.first : other.second) ||
-           goes_on_between(one.second, same_way ? other.second : other.first);
+    const auto is_one_side = [&](const Segment& own, const Segment& next) {
+      return goes_on_between(own, next) || continues_face(h, own, next);
+    };
+    return is_one_side(one.first, same_way ? other.first : other.second) ||
+           is_one_side(one.second, same_way ? other.second : other.first);
   }
   const auto goes_on = [&](const Segment& own, const Segment& edge) {
     if (edge.length() < kMinThirdEdge * own.length() || !is_beyond(edge, own)) return false;
@@ -142,7 +182,7 @@ bool PanelEvidence::is_third(const PanelHypothesis& h, const Segment& edge) cons
   // beside the other one, or the outline goes on to it, it is the rest of the same side.
   const auto is_thirds_side = [&](const Segment& own, const Segment& opposite) {
     return is_beyond(edge, own) && gap_px(edge, own) > kMinGap_px && !is_beside(edge, opposite) &&
-           !goes_on_between(own, edge);
+           !goes_on_between(own, edge) && !continues_face(h, own, edge);
   };
   if (!is_thirds_side(pair.first, pair.second) && !is_thirds_side(pair.second, pair.first)) return false;
   const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);

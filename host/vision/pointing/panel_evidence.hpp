@@ -25,6 +25,8 @@ class PanelEvidence {
  private:
   bool is_much_of_target(const PanelHypothesis& h) const;
   bool is_end_of_plane(const PanelHypothesis& h) const;
+  bool continues_face(const PanelHypothesis& h, const Segment& own, const Segment& edge) const;
+  bool is_of_yokes(const PanelHypothesis& h) const;
   bool is_interrupted(const PanelHypothesis& h) const;
   bool goes_on_between(const Segment& one, const Segment& other) const;
   bool is_of_a_narrower(const EdgePair& own, const Segment& edge) const;

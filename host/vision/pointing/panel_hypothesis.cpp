@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace pharos::pointing {
@@ -15,6 +16,9 @@ constexpr double kAngleSlack_rad = 0.3 * kRadPerDeg;
 // What blur, a frame or a rounded corner leave between the two corners of a panel's end.
 constexpr double kCornersApart_px = 10.0;
 constexpr double kCornersApartFraction = 0.01;  // of the side's length
+// What lens and fit leave of one line between two pieces of an end, and of the distance between them.
+constexpr double kOneEnd_px = 4.0;
+constexpr double kOneEndFraction = 0.02;
 
 // Angle between long sides and ends beyond a right one, where both ends are seen.
 struct Square {
@@ -43,6 +47,15 @@ std::optional<AxisEstimate> axis_of(const PanelMeasurement& panel) {
   return axis ? std::optional(*axis) : std::nullopt;
 }
 
+// Whether ends are of more than one line: two pieces of one end, seen at either corner, are no two sides.
+bool are_of_two_lines(const std::vector<Side>& ends) {
+  return std::any_of(ends.begin(), ends.end(), [&](const Side& end) {
+    const Segment &first = ends.front().extent, &other = end.extent;
+    const double slack_px = kOneEnd_px + kOneEndFraction * (other.middle() - first.middle()).norm();
+    return std::max(std::abs(first.offset(other.begin)), std::abs(first.offset(other.end))) > slack_px;
+  });
+}
+
 // Long and short side by their lengths in space; false where it is no panel, or where it is not known which is longer.
 bool settle_sides(const EdgePair& pair, const PanelSides& measured, const PinholeCamera& camera,
                   PanelHypothesis& lone) {
@@ -51,13 +64,14 @@ bool settle_sides(const EdgePair& pair, const PanelSides& measured, const Pinhol
   const auto in_space = aspect_in_space(panel, camera);
   if (!in_space) return pair.middle.length() >= kMinAspect * pair.separation;
   if (in_space->minimum >= kMinAspect) return true;
-  if (in_space->maximum * kMinAspect > 1.0 || panel.short_planes.size() < 2) return false;
+  if (in_space->maximum * kMinAspect > 1.0 || !are_of_two_lines(measured.ends)) return false;
   std::swap(panel.long_planes, panel.short_planes);
   std::swap(panel.long_planes_moved, panel.short_planes_moved);
   std::swap(panel.long_edges, panel.short_edges);
-  lone.sides = {measured.ends[0].extent, measured.ends[1].extent};
+  lone.sides = {measured.ends.front().extent, measured.ends.back().extent};
   lone.whole_ends = panel.short_edges.size();
-  lone.is_of_faces = is_of_faces({measured.ends[0], measured.ends[1], {}, {}, false});
+  lone.has_outer_end = true;
+  lone.is_of_faces = is_of_faces({measured.ends.front(), measured.ends.back(), {}, {}, false});
   // Known by the other axis, of which the sigma may be another.
   const auto swapped = aspect_in_space(panel, camera);
   return !swapped || swapped->minimum >= kMinAspect;
@@ -65,10 +79,10 @@ bool settle_sides(const EdgePair& pair, const PanelSides& measured, const Pinhol
 
 // A panel that runs across the body leaves two pieces of its width on either side, as a wing's panels do. Its ends are
 // then the long sides. False where the wing is not longer than wide.
-bool settle_wing(PanelHypothesis& wing, const PinholeCamera& camera) {
+bool settle_wing(const std::vector<Side>& ends, const PinholeCamera& camera, PanelHypothesis& wing) {
   const auto in_space = aspect_in_space(wing.measurement, camera);
   if (!in_space || in_space->minimum >= kMinAspect) return true;
-  if (in_space->maximum * kMinAspect > 1.0 || wing.measurement.short_planes.size() < 2) return false;
+  if (in_space->maximum * kMinAspect > 1.0 || !are_of_two_lines(ends)) return false;
   std::swap(wing.measurement.long_planes, wing.measurement.short_planes);
   std::swap(wing.measurement.long_planes_moved, wing.measurement.short_planes_moved);
   std::swap(wing.measurement.long_edges, wing.measurement.short_edges);
@@ -88,6 +102,10 @@ std::optional<PanelHypothesis> lone_with(const EdgePair& pair, const PanelSides&
                                          const PinholeCamera& camera) {
   PanelHypothesis lone{{pair}, measurement_of({sides}, camera), {}, pair.middle.length()};
   lone.whole_ends = whole_ends;
+  // Where the body hides a panel's other end, the one that is seen is the outer one.
+  const auto ends = std::span(sides.ends).first(whole_ends);
+  lone.has_outer_end =
+      std::any_of(ends.begin(), ends.end(), [&](const Side& end) { return !is_before_a_face(end, sides.first); });
   lone.has_corner_end = whole_ends < std::min<std::size_t>(2, sides.ends.size());
   if (!settle_sides(pair, sides, camera, lone)) return std::nullopt;
   const auto axis = axis_of(lone.measurement);
@@ -128,7 +146,9 @@ std::optional<PanelHypothesis> wing_of(const MeasuredPair& a, const MeasuredPair
   if (!axis) return std::nullopt;
   wing.axis = *axis;
   wing.whole_ends = wing.measurement.short_edges.size();
-  if (!settle_wing(wing, camera)) return std::nullopt;
+  std::vector<Side> ends = a.sides.ends;
+  ends.insert(ends.end(), b.sides.ends.begin(), b.sides.ends.end());
+  if (!settle_wing(ends, camera, wing)) return std::nullopt;
   wing.score = kWingBonus * (a.pair.middle.length() + b.pair.middle.length());
   return wing;
 }

@@ -25,6 +25,7 @@ struct PanelHypothesis {
   bool is_of_faces = false;        // no panel's, if its sides are measured right: it competes and is no answer
   bool has_unknown_end = false;    // see PanelSides
   bool has_slanted_end = false;    // at a corner of one side, not square to the sides in space
+  bool has_outer_end = false;      // one of the whole ends is before the sky
   bool has_corner_end = false;     // an end is seen from one side only
   std::size_t whole_ends = 0;      // of the measurement's ends, the first: those that reach from side to side
   std::array<Segment, 2> sides{};  // of a lone pair: the long ones, in the image

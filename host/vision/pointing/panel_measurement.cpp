@@ -46,20 +46,32 @@ struct SharedLine {
 
 SharedLine line_of(const Side& side) { return {side.fit, side.structure_px, -side.extent.across(), side.blur_px}; }
 
-// Two edges that are pieces of one line: the fit of both, if it is no worse than each by itself.
+// Of one point, correlation along the edge included.
+double sigma_px(const LineFit& fit) {
+  return std::max(pointing::kMinSigma_px, fit.rms_px * std::sqrt(std::max(1.0, fit.variance_inflation)));
+}
+
+// How much worse another line fits an edge's points than its own: the square of what is between the lines, which
+// changes linearly along the edge.
+double misfit_chi2(const LineFit& own, const LineFit& other) {
+  const double begin = other.offset_px(own.begin_px), end = other.offset_px(own.end_px);
+  const double square = (begin * begin + begin * end + end * end) / 3.0;
+  return square * static_cast<double>(own.points) / (sigma_px(own) * sigma_px(own));
+}
+
+// Two edges that are pieces of one line: the fit of both, if it is no worse than each by itself. Each counts by its own
+// scatter: lines between cells may meet the one and not the other.
 std::optional<SharedLine> as_one_line(const Side& a, const Side& b) {
-  std::vector<EdgePoint> points = a.points;
-  points.insert(points.end(), b.points.begin(), b.points.end());
+  std::vector<EdgePoint> points;
+  for (const Side* side : {&a, &b}) {
+    for (const EdgePoint& point : side->points) points.push_back({point.place_px, sigma_px(side->fit)});
+  }
   const Vector2 along = a.extent.along();
   std::sort(points.begin(), points.end(),
             [&](const EdgePoint& p, const EdgePoint& q) { return along.dot(p.place_px) < along.dot(q.place_px); });
   const auto fit = pointing::fit_line(points);
   if (!fit || fit->points + 8 < a.fit.points + b.fit.points) return std::nullopt;
-  const double apart = squares(a.fit) + squares(b.fit);
-  const double variance = apart / static_cast<double>(a.fit.points + b.fit.points - 4);
-  const double worse = (squares(*fit) - apart) / std::max(1e-12, variance);
-  const double correlated = std::max({1.0, a.fit.variance_inflation, b.fit.variance_inflation});
-  if (worse > kOneLineChi2 * correlated) return std::nullopt;
+  if (misfit_chi2(a.fit, *fit) + misfit_chi2(b.fit, *fit) > kOneLineChi2) return std::nullopt;
   return SharedLine{*fit, std::max(a.structure_px, b.structure_px), -a.extent.across(), 0.5 * (a.blur_px + b.blur_px)};
 }
 

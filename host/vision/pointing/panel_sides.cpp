@@ -66,10 +66,6 @@ bool is_corner(const Segment& edge, const Segment& next) {
   return std::abs(edge.offset(next.begin)) < slack && std::abs(edge.station(next.begin) - edge.length()) < slack / turn;
 }
 
-// Whether another face in the dark shows behind an end, and not the sky that is behind a side: it hides the panel
-// there.
-bool is_before_a_face(const Side& end, const Side& side) { return end.backing > kMaxBacking || are_apart(end, side); }
-
 struct EndSearch {
   ImageView<const std::uint16_t> image;
   const TargetMask& target;
@@ -97,7 +93,8 @@ struct EndSearch {
       const auto end = measured_side(image, target, camera, edge, reach_px);
       const bool is_cut = end ? end->cut : end.error() == PointingRefusal::kCutByBorder;
       panel.has_unknown_end = panel.has_unknown_end || is_cut;
-      if (!end || is_cut || end->fit.length_px() < min_length || is_before_a_face(*end, side)) continue;
+      if (!end || is_cut || end->fit.length_px() < min_length) continue;
+      if (is_before_a_face(*end, side)) continue;  // which hides the panel there
       panel.corner_ends.push_back(*end);
     }
   }
@@ -154,6 +151,8 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   side.fit = *fit;
   return side;
 }
+
+bool is_before_a_face(const Side& end, const Side& side) { return end.backing > kMaxBacking || are_apart(end, side); }
 
 // A panel is thin: beyond its sides is sky. Beyond a face's is another face, in the dark. And it is one plane: where
 // one of two sides is far brighter than the other, they are of two faces.

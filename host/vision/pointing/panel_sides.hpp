@@ -37,6 +37,9 @@ struct PanelSides {
 /// Whether another face shows beyond one of the long sides: the pair is a body's, or a panel before one.
 bool is_of_faces(const PanelSides& panel);
 
+/// Whether another face in the dark shows behind an end, and not the sky that is behind a side.
+bool is_before_a_face(const Side& end, const Side& side);
+
 /// An edge of the outline as a side. kCutByBorder, kEdgeUnsure, kOutsideLens.
 Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image, const TargetMask& target,
                                             const PinholeCamera& camera, const Segment& guess, double reach_px);

@@ -18,6 +18,8 @@ constexpr double kMinWidth_px = 16.0;
 // Of a block's brightness over the sky from the middle one's. Two faces of a body whose light differs by less look like
 // one plane.
 constexpr double kMaxDeparture = 0.1;
+// Beyond a side's end: foil differs from place to place, and a dark face has few grey values.
+constexpr double kMaxDepartureBeyond = 0.2;
 constexpr double kMinAlike = 0.85;  // of all blocks
 // Along each edge, within this of the distance between the edges; one block for what a cell's border or a hinge
 // darkens.
@@ -71,21 +73,34 @@ double level_of_block(ImageView<const std::uint16_t> image, Place place) {
 // A fraction of a length that leaves out `clear` of it at both ends.
 double within(double clear, double fraction) { return clear + (1.0 - 2.0 * clear) * fraction; }
 
-// Whether an edge borders the plane over all of its length, also where the other one has ended: a body's edge goes on
-// along its next face.
-bool borders_plane(ImageView<const std::uint16_t> image, const EdgePair& pair, const Segment& edge, double sky,
-                   double level) {
+using SideLevels = std::array<double, kBlocksOfSide>;
+
+// Levels over the sky along an edge, on the side where the pair is.
+SideLevels levels_along(ImageView<const std::uint16_t> image, const EdgePair& pair, const Segment& edge, double sky) {
   const double inwards = edge.offset(pair.middle.middle()) > 0.0 ? 1.0 : -1.0;
-  int alike = 0;
+  SideLevels levels{};
   for (int i = 0; i < kBlocksOfSide; ++i) {
     const double grey = level_of_block(image, [&](double along, double across) -> Vector2 {
       const double depth = kClearOfSides + (kSideBand - kClearOfSides) * across;
       return edge.begin + within(kClearOfEnds, (i + along) / kBlocksOfSide) * (edge.end - edge.begin) +
              inwards * depth * pair.separation * edge.across();
     });
-    alike += std::abs(grey - sky - level) < kMaxDeparture * level ? 1 : 0;
+    levels[static_cast<std::size_t>(i)] = grey - sky;
   }
-  return alike >= kMinAlikeOfSide;
+  return levels;
+}
+
+// Whether nearly all of them are of one plane: within a fraction of its level.
+bool are_of(const SideLevels& levels, double level, double max_departure) {
+  return std::count_if(levels.begin(), levels.end(),
+                       [&](double one) { return std::abs(one - level) < max_departure * level; }) >= kMinAlikeOfSide;
+}
+
+// Whether an edge borders the plane over all of its length, also where the other one has ended: a body's edge goes on
+// along its next face.
+bool borders_plane(ImageView<const std::uint16_t> image, const EdgePair& pair, const Segment& edge, double sky,
+                   double level) {
+  return are_of(levels_along(image, pair, edge, sky), level, kMaxDeparture);
 }
 
 }  // namespace
@@ -109,6 +124,13 @@ bool is_one_plane(ImageView<const std::uint16_t> image, const TargetMask& target
   return static_cast<double>(alike) >= kMinAlike * static_cast<double>(count) &&
          borders_plane(image, pair, pair.first, target.sky, level) &&
          borders_plane(image, pair, pair.second, target.sky, level);
+}
+
+bool goes_on_along(ImageView<const std::uint16_t> image, const TargetMask& target, const EdgePair& pair,
+                   const Segment& side, const Segment& gap) {
+  SideLevels levels = levels_along(image, pair, side, target.sky);
+  const double level = median_of(levels.data(), levels.data() + levels.size());
+  return are_of(levels_along(image, pair, gap, target.sky), level, kMaxDepartureBeyond);
 }
 
 }  // namespace pharos::pointing

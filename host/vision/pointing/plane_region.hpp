@@ -12,4 +12,8 @@ namespace pharos::pointing {
 /// panel from the body beside it. False where the pair is too narrow to tell.
 bool is_one_plane(ImageView<const std::uint16_t> image, const TargetMask& target, const EdgePair& pair);
 
+/// Whether what borders a side of a pair also borders `gap`, which is in line with it, all along, on the same side.
+bool goes_on_along(ImageView<const std::uint16_t> image, const TargetMask& target, const EdgePair& pair,
+                   const Segment& side, const Segment& gap);
+
 }  // namespace pharos::pointing

@@ -36,12 +36,13 @@ void expect_no_failure(const std::string& name, std::initializer_list<std::uint6
 // light with one end; a piece of an end for a side, seen along the axis; a wing with a bright line beside two of its
 // sides; the edge of another face that cuts a face's corner off; a body's edge in line with a side; short edges of
 // a body that face a panel's side; the rest of a body's side behind a panel; a flat
-// corner of two faces.
+// corner of two faces; the yokes of a wing; a face before wings, whose sides go on beyond them; two pieces of one end
+// for sides; pieces of a wing's side of unequal scatter.
 TEST(IntegritySeeds, Line) {
-  expect_no_failure("line", {62,     108,    220,    244,    1039,   1251,   1430,   1446,   3378,   60259,
-                             60665,  60891,  61369,  200023, 200314, 300074, 300237, 400097, 430006, 432141,
-                             432378, 450045, 450232, 450280, 450365, 460048, 460270, 462197, 463120, 464076,
-                             464150, 464207, 464491, 480001, 481750, 494127, 495456, 495509, 495790, 496048});
+  expect_no_failure("line", {62,     108,    220,    244,    1039,   1251,   1430,   1446,   3378,   60259,  60665,
+                             60891,  61369,  200023, 200314, 300074, 300237, 400097, 430006, 432141, 432378, 450045,
+                             450232, 450280, 450365, 460048, 460270, 462197, 463120, 464076, 464150, 464207, 464491,
+                             480001, 481750, 494127, 495456, 495509, 495790, 496048, 701293, 701916, 702981, 703865});
 }
 
 // Grey values that are a power of the light: a dark face behind half of a side moves that half otherwise; converging
