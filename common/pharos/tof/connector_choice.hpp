@@ -40,8 +40,8 @@ struct ConnectorChoice {
 ///
 /// `boxes` and grid as of find_raised_boxes. Where fewer are seen than `expected`, the others are farther away if every
 /// nearer place was measured and is the plate's (odds of 10^4 to 1 a place); else there is no choice. Nor is there one
-/// for a single box while something before the satellite hides as much of it as a connector takes: the box may be a
-/// cover.
+/// for a single box while something before the satellite hides as much of it as a connector takes, or of one told where
+/// pixels do not show it as a rectangle: the box may be a cover. Nor where raised places were not looked at.
 ConnectorChoice choose_connector(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                  const RingFit& ring, const ConnectorSettings& settings,
                                  const RaisedWorkspace& workspace);
