@@ -146,8 +146,7 @@ class FaceFitter {
         if (light == kFullScale) continue;
         const Vector2 ray = rays_.at(u, v);
         double layer = 0.0;
-        const bool measured = has_depth(depth);
-        if (measured) {
+        if (has_depth(depth)) {
           const double over = (plane_.height_m(ray, depth_z_m(camera_, depth)) - base_m_) / step;
           if (over > 2.0) continue;  // something before the satellite
           layer = light * std::max(over, -1.0);
@@ -155,7 +154,8 @@ class FaceFitter {
           continue;
         }
         const double weight = std::min(1.0, bright_counts_ / std::max<double>(light, 1.0));
-        if (!pixels_.push_back({planar(ray, face.height_m), layer, weight, measured})) return;
+        if (!pixels_.push_back({planar(ray, face.height_m), static_cast<float>(layer), static_cast<float>(weight)}))
+          return;
       }
     }
   }
@@ -224,7 +224,7 @@ class FaceFitter {
         if (!observe(p, r, sides, walls, brightness, row, residual)) continue;
         const double size = std::fabs(residual);
         residuals_[used] = size;
-        if (p.measured) std::swap(residuals_[measured++], residuals_[used]);  // these come first
+        if (p.is_measured()) std::swap(residuals_[measured++], residuals_[used]);  // these come first
         ++used;
         if (round + 1 == kRounds) add_to(scatter, p, r, sides, row, residual, sigma);
         const double weight = size > kHuber * sigma ? kHuber * sigma / size : 1.0;
@@ -302,7 +302,7 @@ class FaceFitter {
       const Vector2 off = p.place_m - r.centre_m;
       if (std::fabs(r.outward(0).dot(off)) < 0.8 * r.half_sides_m.x() &&
           std::fabs(r.outward(1).dot(off)) < 0.8 * r.half_sides_m.y()) {
-        residuals_[count++] = p.layer;
+        residuals_[count++] = static_cast<double>(p.layer);
       }
     }
     return count > 0 ? median(residuals_.data(), count) : 0.0;
@@ -327,8 +327,9 @@ class FaceFitter {
         by_s * t - by_t * s, brightness * x.by_half * y.value, brightness * x.value * y.by_half, cover,
         brightness * x.by_wall * y.value, brightness * x.value * y.by_wall,
         brightness * (x.by_blur * y.value + x.value * y.by_blur);
-    row *= p.weight;
-    residual = p.weight * (p.layer - brightness * cover);
+    const double weight = static_cast<double>(p.weight);
+    row *= weight;
+    residual = weight * (static_cast<double>(p.layer) - brightness * cover);
     return true;
   }
 

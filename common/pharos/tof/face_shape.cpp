@@ -29,9 +29,9 @@ void compare_with_disc(std::span<const FacePixel> pixels, const FaceSides& sides
     if (std::min(across_s, across_t) < kCorner || beside_wall(sides.along, s) || beside_wall(sides.across, t)) continue;
     const double rectangle = sides.along.at(s, 0.0).value * sides.across.at(t, 0.0).value;
     const double disc = blurred_step(half * (kDiscRadius - std::hypot(across_s, across_t)), blur).value;
-    const double difference = p.weight * (rectangle - disc);
+    const double weight = static_cast<double>(p.weight), difference = weight * (rectangle - disc);
     squares += difference * difference;
-    product += difference * p.weight * (p.layer / light.brightness - disc);
+    product += difference * weight * (static_cast<double>(p.layer) / light.brightness - disc);
   }
   if (!(squares > 0.0) || !(light.brightness > 0.0)) return;
   face.squareness = product / squares;

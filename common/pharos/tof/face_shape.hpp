@@ -11,9 +11,11 @@ namespace pharos::tof {
 /// A pixel about a face: its place in the top's plane, and the light that it collects from the top's height, counts.
 struct FacePixel {
   Vector2 place_m = Vector2::Zero();
-  double layer = 0.0;
-  double weight = 1.0;   ///< noise of the face's own pixels over this one's
-  bool measured = true;  ///< false: a dark pixel without depth, taken for background; it tells nothing of the noise
+  float layer = 0.0F;   ///< exactly 0: a dark pixel without depth, taken for background
+  float weight = 1.0F;  ///< noise of the face's own pixels over this one's
+
+  /// A pixel without depth tells nothing of the noise.
+  bool is_measured() const { return layer != 0.0F; }
 };
 
 /// Profiles across a face along both its sides' directions.
