@@ -12,6 +12,13 @@ set(PHAROS_FUZZ_SECONDS 180 CACHE STRING "How long each libFuzzer target runs in
 pharos_headers(test HEADERS <gmock/gmock.h> <gtest/gtest.h> <Eigen/Geometry>
   LIBS Eigen3::Eigen GTest::gtest GTest::gmock OPTIONS ${PHAROS_COLD_OPTIONS})
 
+# pharos_test_program(NAME KIND): what a program, or a library, that tests run is compiled with: cold, and with the
+# precompiled headers of KIND: cold, command (CLI11) or test (GoogleTest). It is in the folder of the tests.
+function(pharos_test_program name kind)
+  pharos_cold(${name} ${kind})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+endfunction()
+
 # pharos_test(NAME [LABEL label] [TIMEOUT seconds] SOURCES files... [PROPERTY files...] [FAULT files...] LIBS libraries...):
 # one GoogleTest program per room; each suite is a ctest entry NAME.Suite (discover_tests.py). LABEL is that of SOURCES:
 # unit (default), property, integration, fault, data or long; PROPERTY and FAULT are further files with those labels.
@@ -38,10 +45,8 @@ function(pharos_test name)
   add_executable(${name} ${ARG_SOURCES} ${ARG_PROPERTY} ${ARG_FAULT})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} pharos_warnings GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR})
-  target_compile_options(${name} PRIVATE ${PHAROS_COLD_OPTIONS})
-  pharos_reads_headers(${name} test)
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests"
-    LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/discover_tests.py)
+  pharos_test_program(${name} test)
+  set_target_properties(${name} PROPERTIES LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/discover_tests.py)
   if(ARG_LABEL STREQUAL "long")
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     add_dependencies(long_tests ${name})
@@ -78,14 +83,6 @@ endif()
   if(ARG_LABEL STREQUAL "data")
     set_property(GLOBAL APPEND PROPERTY PHAROS_DATA_TESTS ${name})
   endif()
-endfunction()
-
-# pharos_test_program(NAME KIND): what a program, or a library, that tests run is compiled with: cold, and with the
-# precompiled headers of KIND: cold, command (CLI11) or test (GoogleTest). It is in the folder of the tests.
-function(pharos_test_program name kind)
-  target_compile_options(${name} PRIVATE ${PHAROS_COLD_OPTIONS})
-  pharos_reads_headers(${name} ${kind})
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 endfunction()
 
 # pharos_fuzz(NAME SOURCE file LIBS libraries...): an ordinary test that replays tests/fuzz/corpus/NAME through
