@@ -25,7 +25,7 @@ enum class ConnectorDoubt : std::uint8_t {
   kNoneSeen,
   kMore,     ///< more are seen than the target carries
   kUnlike,   ///< not of one kind: one of them is none
-  kUnclear,  ///< something nearer may be a connector
+  kUnclear,  ///< something nearer may be a connector, or a single one be none
   kHidden    ///< fewer are seen than the target carries, and an unmeasured place may hold a nearer one
 };
 

@@ -32,7 +32,8 @@ enum TofFlag : std::uint8_t {
   kFlagCoarseConnector = 1U << 3U,
   /// More connectors are seen than the target carries: which of them is none is not known. With kFlagNoConnector.
   kFlagMoreConnectors = 1U << 4U,
-  /// The connectors seen are not of one kind, or something nearer may be one. With kFlagNoConnector.
+  /// The connectors seen are not of one kind, something nearer may be one, a single one of one told is not certainly a
+  /// rectangle, or some of what stands on the plate was not looked at. With kFlagNoConnector.
   kFlagUnsureConnectors = 1U << 5U,
 };
 inline constexpr std::array<FlagWord, 6> kTofFlagWords = {{{kFlagNoConnector, "no_connector"},

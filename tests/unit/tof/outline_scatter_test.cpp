@@ -10,9 +10,7 @@ namespace {
 
 constexpr double kSigma = 3.0;
 
-// Of a square's outline with 60 pixels a side whose noise is the mean of so many neighbours', as large as if
-// independent. The noise is free of what a fit would take: pieces are more than enough for their mean to be near the
-// truth.
+// Of a square's outline with 60 pixels a side, of which so many neighbours have the same noise.
 double mean_ratio(int shared) {
   double sum = 0.0;
   constexpr int kOutlines = 400;
